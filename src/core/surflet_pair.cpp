@@ -1,0 +1,75 @@
+#include "pcl_surflet/core/surflet_pair.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace pcl_surflet {
+namespace {
+
+using Vec3 = std::array<double, 3>;
+
+Vec3
+operator-(const Vec3& a, const Vec3& b)
+{
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+double
+dot(const Vec3& a, const Vec3& b)
+{
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+Vec3
+cross(const Vec3& a, const Vec3& b)
+{
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/** \brief Is p2 the origin [Wahl 2007, Eq. 2.2]? \p a = n1.d, \p b = n2.d, d = p2 - p1. */
+bool
+originIsSecond(double a, double b, double length)
+{
+  const double difference = std::abs(a) - std::abs(b);
+  if (std::abs(difference) <= kOriginTieTolerance * length)
+    return -b > a; // the end with the larger gamma; gamma is a/|d| at p1, -b/|d| at p2
+  return difference > 0;
+}
+
+} // namespace
+
+std::optional<PairFeature>
+computePairFeature(const Surflet& s1, const Surflet& s2)
+{
+  Vec3 p1{s1.x, s1.y, s1.z}, n1{s1.nx, s1.ny, s1.nz};
+  Vec3 p2{s2.x, s2.y, s2.z}, n2{s2.nx, s2.ny, s2.nz};
+  Vec3 d = p2 - p1;
+  const double length = std::sqrt(dot(d, d));
+  if (!(length > 0) || !std::isfinite(length) || !std::isfinite(dot(n1, n1) + dot(n2, n2)))
+    return std::nullopt;
+
+  if (originIsSecond(dot(n1, d), dot(n2, d), length)) {
+    std::swap(n1, n2);
+    d = p1 - p2;
+  }
+  const Vec3& u = n1;   // Eq. 2.3
+  Vec3 v = cross(d, u); // Eq. 2.4
+  const double v_squared = dot(v, v);
+  if (!(v_squared > kCollinearityTolerance * length * length))
+    return std::nullopt;
+  for (double& c : v)
+    c /= std::sqrt(v_squared);
+  const Vec3 w = cross(u, v); // Eq. 2.5
+
+  PairFeature f;
+  f.alpha = std::atan2(dot(w, n2), dot(u, n2)); // Eq. 2.6
+  if (f.alpha >= M_PI)
+    f.alpha = -M_PI;                                   // Eq. 2.12: the codomain is half open
+  f.beta = std::clamp(dot(v, n2), -1.0, 1.0);          // Eq. 2.7
+  f.gamma = std::clamp(dot(u, d) / length, -1.0, 1.0); // Eq. 2.8
+  f.delta = length;                                    // Eq. 2.9
+  return f;
+}
+
+} // namespace pcl_surflet
