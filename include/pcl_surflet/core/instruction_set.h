@@ -1,0 +1,20 @@
+/** \file
+ * Which instruction set the kernels use. */
+#pragma once
+
+#include "pcl_surflet/export.h"
+
+namespace pcl_surflet {
+
+enum class InstructionSet { Automatic, Scalar, Avx2, Avx512 };
+
+/** \brief Selects the kernels of all later calls in this process; Automatic takes the best the
+ * processor offers. For tests and benchmarks: results do not depend on it, only speed does.
+ * Not meant to be called while other threads compute.
+ * \return false, changing nothing, if this processor or build has no such instruction set. */
+PCL_SURFLET_API bool selectInstructionSet(InstructionSet set);
+
+/** \brief Name of the instruction set in use: "scalar", "avx2" or "avx512". */
+PCL_SURFLET_API const char* activeInstructionSet();
+
+} // namespace pcl_surflet
