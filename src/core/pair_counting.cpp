@@ -221,39 +221,37 @@ drawFeatures(const PairSource& source, const Resolution& resolution, std::uint64
   if (source.size() < 2)
     return sample;
   sample.angular_bin.resize(n);
-  sample.delta.resize(n);
+  sample.delta_squared.resize(n);
   const BinMap map(resolution, 1.0);
   parallelFor((n + kDrawBlock - 1) / kDrawBlock, threads, [&](std::size_t block, unsigned) {
     const auto drawn =
         drawnBlock(source.records(), source.size(), block, n - block * kDrawBlock, seed);
     kernels::active().featuresDrawn(drawn, map, sample.angular_bin.data() + block * kDrawBlock,
-                                    sample.delta.data() + block * kDrawBlock);
+                                    sample.delta_squared.data() + block * kDrawBlock);
   });
   std::size_t kept = 0;
   for (std::size_t i = 0; i < n; ++i) {
     if (sample.angular_bin[i] == kernels::kNoFeature)
       continue;
     sample.angular_bin[kept] = sample.angular_bin[i];
-    sample.delta[kept++] = sample.delta[i];
+    sample.delta_squared[kept++] = sample.delta_squared[i];
   }
   sample.rejected = n - kept;
   sample.angular_bin.resize(kept);
-  sample.delta.resize(kept);
+  sample.delta_squared.resize(kept);
   return sample;
 }
 
 void
 FeatureSample::bins(double delta_max, std::vector<std::uint32_t>& out) const
 {
-  out.resize(size());
-  // The same single-precision steps as in the counting kernels, so that both agree.
-  const float per_length = static_cast<float>(resolution.delta / (delta_max * scale));
-  const float last = static_cast<float>(resolution.delta - 1);
+  // The same comparisons as in the counting kernels, so that both agree.
+  out = angular_bin;
   const auto stride = static_cast<std::uint32_t>(resolution.angularBins());
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const float position = delta[i] * per_length;
-    const auto interval = static_cast<std::int32_t>(position < last ? position : last);
-    out[i] = angular_bin[i] + stride * static_cast<std::uint32_t>(interval);
+  for (int k = 0; k + 1 < resolution.delta; ++k) {
+    const float border = kernels::squaredDeltaBorder(k, resolution.delta, delta_max * scale);
+    for (std::size_t i = 0; i < out.size(); ++i)
+      out[i] += delta_squared[i] >= border ? stride : 0;
   }
 }
 

@@ -30,14 +30,9 @@ struct ScalarLanes {
     return v;
   }
   static F
-  sqrt(F v)
+  minusAbs(F v)
   {
-    return __builtin_sqrtf(v);
-  }
-  static F
-  abs(F v)
-  {
-    return __builtin_fabsf(v);
+    return -__builtin_fabsf(v);
   }
   static M
   less(F a, F b)
@@ -49,33 +44,16 @@ struct ScalarLanes {
   {
     return a <= b;
   }
-  static M
-  both(M a, M b)
-  {
-    return a & b;
-  }
-  static M
-  either(M a, M b)
-  {
-    return a | b;
-  }
-  template <class T>
-  static T
-  select(M m, T a, T b)
+  static F
+  select(M m, F a, F b)
   {
     return m ? a : b;
   }
-  /** \brief \p v + 1 where \p m. */
+  /** \brief \p v + \p step where \p m. */
   static F
-  countIf(M m, F v)
+  addIf(M m, F v, F step)
   {
-    return v + static_cast<float>(m);
-  }
-  /** \brief Whole part of a value in [0, 2^31). */
-  static F
-  truncate(F v)
-  {
-    return static_cast<float>(static_cast<std::int32_t>(v));
+    return v + (m ? step : 0.f); // without a branch
   }
   static void
   storeIndex(std::uint32_t* p, F v)

@@ -23,22 +23,29 @@ constexpr int kCounterCopies = 4;
 /** \brief Rejected pairs are counted behind the last bin; angular bin of a pair without feature. */
 constexpr std::uint32_t kNoFeature = 0xffffffffu;
 
-/** \brief Pairs closer than the square root of this (in unit scale) count as coincident. */
-constexpr float kCoincidentSquared = 1e-24f;
+/** \brief Intervals of one angular dimension, symmetric about 0. */
+struct AxisMap {
+  float stride;                                   ///< step of the linear bin index
+  float base;                                     ///< interval of +0, times stride
+  float base_negative;                            ///< interval of values just below 0, times stride
+  int borders;                                    ///< number of borders above 0
+  float border[Resolution::kMaxPerDimension / 2]; ///< squared with sign, ascending in the interval
+};
 
 /** \brief Everything the mapping of a feature to its bin needs, in single precision. */
 struct BinMap {
-  explicit BinMap(const Resolution& resolution, double delta_max);
+  BinMap(const Resolution& resolution, double delta_max);
 
-  float n_alpha, n_beta, n_gamma, n_delta; ///< intervals per dimension
-  float half_beta, half_gamma;             ///< intervals per unit of beta, gamma
-  float delta_scale;                       ///< intervals per unit of delta
-  float alpha_base;                        ///< interval of alpha = +0
-  int angular_bins, bins;
-  int edges; ///< interval borders of alpha inside (0, pi)
-  float edge_cos[Resolution::kMaxPerDimension / 2];
-  float edge_sin[Resolution::kMaxPerDimension / 2];
+  AxisMap alpha, beta, gamma;
+  bool right_angle_border; ///< alpha has a border at +-pi/2
+  float delta_stride;
+  int delta_borders;
+  float delta_border[Resolution::kMaxPerDimension]; ///< squared
+  int bins;
 };
+
+/** \brief Border \p k (0 ... n - 2) between the \p n intervals of delta, squared. */
+float squaredDeltaBorder(int k, int n, double delta_max);
 
 /** \brief Columns of a SurfletSet in unit scale. */
 struct Columns {
@@ -74,14 +81,15 @@ struct PairKernels {
                       std::uint32_t* counts);
   /** Counts a block of drawn pairs likewise. */
   void (*countDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* counts);
-  /** Writes angular bin (kNoFeature for none) and distance of each drawn pair. */
+  /** Writes angular bin (kNoFeature for none) and squared distance of each drawn pair. */
   void (*featuresDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* angular_bin,
-                        float* delta);
+                        float* delta_squared);
   /** Writes the indices of each drawn pair, for those who need the surflets themselves. */
   void (*drawIndices)(const DrawnBlock& block, std::uint32_t* first, std::uint32_t* second);
 };
 
 extern const PairKernels scalar_kernels;
+extern const PairKernels baseline_kernels;
 #if defined(PCL_SURFLET_X86_KERNELS)
 extern const PairKernels avx2_kernels;
 extern const PairKernels avx512_kernels;

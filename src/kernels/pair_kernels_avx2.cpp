@@ -1,4 +1,3 @@
-#include "kernels/lanes_scalar.h"
 #include "kernels/pair_kernels_impl.h"
 
 #include <immintrin.h>
@@ -28,14 +27,9 @@ struct Avx2Lanes {
     return _mm256_set1_ps(v);
   }
   static F
-  sqrt(F v)
+  minusAbs(F v)
   {
-    return _mm256_sqrt_ps(v);
-  }
-  static F
-  abs(F v)
-  {
-    return _mm256_andnot_ps(_mm256_set1_ps(-0.f), v);
+    return _mm256_or_ps(_mm256_set1_ps(-0.f), v);
   }
   static M
   less(F a, F b)
@@ -47,30 +41,15 @@ struct Avx2Lanes {
   {
     return _mm256_cmp_ps(a, b, _CMP_LE_OQ);
   }
-  static M
-  both(M a, M b)
-  {
-    return _mm256_and_ps(a, b);
-  }
-  static M
-  either(M a, M b)
-  {
-    return _mm256_or_ps(a, b);
-  }
   static F
   select(M m, F a, F b)
   {
     return _mm256_blendv_ps(b, a, m);
   }
   static F
-  countIf(M m, F v)
+  addIf(M m, F v, F step)
   {
-    return v + _mm256_and_ps(m, _mm256_set1_ps(1.f));
-  }
-  static F
-  truncate(F v)
-  {
-    return _mm256_round_ps(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    return v + _mm256_and_ps(m, step);
   }
   static void
   storeIndex(std::uint32_t* p, F v)

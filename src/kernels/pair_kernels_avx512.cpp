@@ -1,4 +1,3 @@
-#include "kernels/lanes_scalar.h"
 #include "kernels/pair_kernels_impl.h"
 
 #include <immintrin.h>
@@ -28,14 +27,9 @@ struct Avx512Lanes {
     return _mm512_set1_ps(v);
   }
   static F
-  sqrt(F v)
+  minusAbs(F v)
   {
-    return _mm512_sqrt_ps(v);
-  }
-  static F
-  abs(F v)
-  {
-    return _mm512_abs_ps(v);
+    return _mm512_or_ps(_mm512_set1_ps(-0.f), v);
   }
   static M
   less(F a, F b)
@@ -47,35 +41,15 @@ struct Avx512Lanes {
   {
     return _mm512_cmp_ps_mask(a, b, _CMP_LE_OQ);
   }
-  static M
-  both(M a, M b)
-  {
-    return _kand_mask16(a, b);
-  }
-  static M
-  either(M a, M b)
-  {
-    return _kor_mask16(a, b);
-  }
   static F
   select(M m, F a, F b)
   {
     return _mm512_mask_blend_ps(m, b, a);
   }
-  static M
-  select(M m, M a, M b)
-  {
-    return _kor_mask16(_kand_mask16(m, a), _kandn_mask16(m, b));
-  }
   static F
-  countIf(M m, F v)
+  addIf(M m, F v, F step)
   {
-    return _mm512_mask_add_ps(v, m, v, _mm512_set1_ps(1.f));
-  }
-  static F
-  truncate(F v)
-  {
-    return _mm512_roundscale_ps(v, _MM_FROUND_TO_ZERO | _MM_FROUND_NO_EXC);
+    return _mm512_mask_add_ps(v, m, v, step);
   }
   static void
   storeIndex(std::uint32_t* p, F v)

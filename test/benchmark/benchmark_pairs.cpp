@@ -97,6 +97,7 @@ main(int argc, char** argv)
   benchmark::RegisterBenchmark("pairs/peer_pcl_computePairFeatures", peerComputePairFeatures);
   benchmark::RegisterBenchmark("pairs/reference_double", reference);
   const std::pair<const char*, InstructionSet> sets[] = {{"scalar", InstructionSet::Scalar},
+                                                         {"baseline", InstructionSet::Baseline},
                                                          {"avx2", InstructionSet::Avx2},
                                                          {"avx512", InstructionSet::Avx512}};
   for (const auto& [name, set] : sets) {

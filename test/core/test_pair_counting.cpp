@@ -12,8 +12,8 @@ using namespace pcl_surflet;
 
 namespace {
 
-const std::vector<InstructionSet> kSets = {InstructionSet::Scalar, InstructionSet::Avx2,
-                                           InstructionSet::Avx512};
+const std::vector<InstructionSet> kSets = {InstructionSet::Scalar, InstructionSet::Baseline,
+                                           InstructionSet::Avx2, InstructionSet::Avx512};
 
 /** \brief Restores the automatic choice of kernels at the end of a test. */
 struct KernelGuard {
@@ -108,7 +108,7 @@ TEST(PairCounting, EveryInstructionSetGivesTheSameBits)
       EXPECT_EQ(again.rejected, drawn.rejected);
       const auto features = drawFeatures(source, r, 10007, 17, threads);
       EXPECT_EQ(features.angular_bin, sample.angular_bin);
-      EXPECT_EQ(features.delta, sample.delta);
+      EXPECT_EQ(features.delta_squared, sample.delta_squared);
     }
   }
 }

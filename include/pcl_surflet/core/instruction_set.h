@@ -6,7 +6,9 @@
 
 namespace pcl_surflet {
 
-enum class InstructionSet { Automatic, Scalar, Avx2, Avx512 };
+/** Scalar is the oracle: one pair at a time. Baseline is the fallback, four lanes of what every
+ * processor of the platform has. */
+enum class InstructionSet { Automatic, Scalar, Baseline, Avx2, Avx512 };
 
 /** \brief Selects the kernels of all later calls in this process; Automatic takes the best the
  * processor offers. For tests and benchmarks: results do not depend on it, only speed does.
@@ -14,7 +16,7 @@ enum class InstructionSet { Automatic, Scalar, Avx2, Avx512 };
  * \return false, changing nothing, if this processor or build has no such instruction set. */
 PCL_SURFLET_API bool selectInstructionSet(InstructionSet set);
 
-/** \brief Name of the instruction set in use: "scalar", "avx2" or "avx512". */
+/** \brief Name of the instruction set in use: "scalar", "baseline", "avx2" or "avx512". */
 PCL_SURFLET_API const char* activeInstructionSet();
 
 } // namespace pcl_surflet

@@ -86,14 +86,14 @@ PCL_SURFLET_API PairHistogram countStreamedPairs(const PairSource& source,
 struct PCL_SURFLET_API FeatureSample {
   Resolution resolution;
   std::vector<std::uint32_t> angular_bin; ///< bin of (alpha, beta, gamma), < angularBins()
-  std::vector<float> delta;               ///< distance times scale
-  double scale = 1;                       ///< of delta
-  std::uint64_t rejected = 0;             ///< pairs drawn without feature
+  std::vector<float> delta_squared;       ///< squared distance, times scale^2
+  double scale = 1;
+  std::uint64_t rejected = 0; ///< pairs drawn without feature
 
   std::size_t
   size() const
   {
-    return delta.size();
+    return delta_squared.size();
   }
   /** \brief Linear bin of every feature for a model of \p delta_max. */
   void bins(double delta_max, std::vector<std::uint32_t>& out) const;
