@@ -209,13 +209,17 @@ mix32(std::uint32_t v)
 /** \brief Draws ordered pairs of different indices, uniform up to 2^-32. Number i of a block
  * depends on the block's keys and i alone. */
 inline void
-drawIndices(const DrawnBlock& block, std::uint32_t* first, std::uint32_t* second)
+drawIndices(const DrawnBlock& block, std::uint32_t* __restrict first,
+            std::uint32_t* __restrict second)
 {
-  const std::uint64_t m = block.m;
-  for (std::uint32_t c = 0; c < block.n; ++c) {
-    const std::uint32_t h = mix32(c ^ block.keys.k1);
-    const auto i = static_cast<std::uint32_t>((mix32(h + block.keys.k2) * m) >> 32);
-    const auto j = static_cast<std::uint32_t>((mix32(h ^ block.keys.k3) * (m - 1)) >> 32);
+  // Copies: the compiler could not rule out that the stores change the block, and then it does not
+  // vectorise.
+  const std::uint32_t m = block.m, n = block.n;
+  const DrawKeys keys = block.keys;
+  for (std::uint32_t c = 0; c < n; ++c) {
+    const std::uint32_t h = mix32(c ^ keys.k1);
+    const auto i = static_cast<std::uint32_t>((std::uint64_t{mix32(h + keys.k2)} * m) >> 32);
+    const auto j = static_cast<std::uint32_t>((std::uint64_t{mix32(h ^ keys.k3)} * (m - 1)) >> 32);
     first[c] = i;
     second[c] = j + (j >= i ? 1u : 0u);
   }
