@@ -40,13 +40,15 @@ middle(const TriangleMesh& mesh, Index a, Index b)
       detail::add(detail::toVector3(mesh.vertices[a]), detail::toVector3(mesh.vertices[b])), 0.5));
 }
 
-/** \brief Squared length of an edge, or 0 if it is so short that no float lies between its ends
- * (far from the origin): splitting it would never end. */
-double
-splittableLength(const TriangleMesh& mesh, Index a, Index b)
+/** \brief Whether the edge (a, b) is longer than a squared length and can be split: where no float
+ * lies between its ends (far from the origin), splitting would never end. */
+bool
+mustSplit(const TriangleMesh& mesh, Index a, Index b, double longer_than)
 {
+  if (squaredLength(mesh, a, b) <= longer_than)
+    return false;
   const auto m = middle(mesh, a, b);
-  return m == mesh.vertices[a] || m == mesh.vertices[b] ? 0 : squaredLength(mesh, a, b);
+  return m != mesh.vertices[a] && m != mesh.vertices[b];
 }
 
 /** \brief One round of splitting: all edges longer than a threshold at once.
@@ -88,11 +90,9 @@ private:
   measure(double wanted)
   {
     for (const auto& t : mesh_.triangles)
-      for (int e = 0; e < 3; ++e) {
-        const double length = splittableLength(mesh_, t[e], t[(e + 1) % 3]);
-        if (length > wanted)
-          lengths_.push_back(length);
-      }
+      for (int e = 0; e < 3; ++e)
+        if (mustSplit(mesh_, t[e], t[(e + 1) % 3], wanted))
+          lengths_.push_back(squaredLength(mesh_, t[e], t[(e + 1) % 3]));
   }
 
   /** \brief The smallest squared length from \p wanted upwards that keeps max_triangles: each
@@ -116,7 +116,7 @@ private:
       return;
     for (const auto& t : mesh_.triangles)
       for (int e = 0; e < 3; ++e)
-        if (splittableLength(mesh_, t[e], t[(e + 1) % 3]) > longer_than)
+        if (mustSplit(mesh_, t[e], t[(e + 1) % 3], longer_than))
           keys_.push_back(edgeKey(t[e], t[(e + 1) % 3]));
     std::sort(keys_.begin(), keys_.end());
     keys_.erase(std::unique(keys_.begin(), keys_.end()), keys_.end());
