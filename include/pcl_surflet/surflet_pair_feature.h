@@ -22,19 +22,18 @@ struct PairFeatureRequest {
 };
 
 /** \brief Number of all pairs, 0 if too many to be output. */
-PCL_SURFLET_API std::uint64_t
-countablePairs(std::size_t surflets);
+PCL_SURFLET_API std::uint64_t countablePairs(std::size_t surflets);
 
-/** \brief Features of the pairs asked for; indices are those of \p surflets. \p rejected counts pairs
- * without feature. */
+/** \brief Features of the pairs asked for; indices are those of \p surflets. \p rejected counts
+ * pairs without feature. */
 PCL_SURFLET_API std::vector<SurfletPairSignature>
 computePairSignatures(const SurfletSet& surflets, const PairFeatureRequest& request,
                       std::uint64_t& rejected);
 
 } // namespace detail
 
-/** \brief Computes the four-dimensional feature (alpha, beta, gamma, delta) of pairs of oriented points
- * [Wahl 2007, Eq. 2.2-2.10], one output point per pair.
+/** \brief Computes the four-dimensional feature (alpha, beta, gamma, delta) of pairs of oriented
+ * points [Wahl 2007, Eq. 2.2-2.10], one output point per pair.
  *
  * \code
  * pcl_surflet::SurfletPairFeature<pcl::PointXYZ, pcl::Normal> feature;
@@ -46,15 +45,16 @@ computePairSignatures(const SurfletSet& surflets, const PairFeatureRequest& requ
  * \endcode
  *
  * Without setNumberOfPairs() all m(m-1)/2 pairs of the indexed points are computed, each unordered
- * pair once. Output points carry the two indices into the input cloud. Points that are not finite or
- * have no usable normal take part in no pair; normals are scaled to unit length. Pairs without a
+ * pair once. Output points carry the two indices into the input cloud. Points that are not finite
+ * or have no usable normal take part in no pair; normals are scaled to unit length. Pairs without a
  * feature (coincident points, both normals along the connecting line) are left out and counted.
  *
- * The output is unorganised (height 1) and dense. On misuse (no input, normals missing or of another
- * size, a search surface that is not the input) PCL_ERROR says what is wrong and the output is empty.
+ * The output is unorganised (height 1) and dense. On misuse (no input, normals missing or of
+ * another size, a search surface that is not the input) PCL_ERROR says what is wrong and the output
+ * is empty.
  *
- * For clouds of a type with normals (pcl::PointNormal) the input serves as normals unless others are
- * set. The result does not depend on the number of threads.
+ * For clouds of a type with normals (pcl::PointNormal) the input serves as normals unless others
+ * are set. The result does not depend on the number of threads.
  *
  * \author the pcl_surflet authors */
 template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairSignature>
@@ -112,12 +112,10 @@ public:
 
   /** \brief Computes the features; hides pcl::Feature::compute(), which would make one output per
    * point. */
-  void
-  compute(PointCloudOut& output);
+  void compute(PointCloudOut& output);
 
 private:
-  void
-  computeFeature(PointCloudOut& output) override;
+  void computeFeature(PointCloudOut& output) override;
 
   detail::PairFeatureRequest request_;
   std::uint64_t rejected_ = 0;

@@ -25,8 +25,8 @@ struct HistogramRequest {
 };
 
 /** \brief The histogram, empty if no pair has a feature. */
-PCL_SURFLET_API std::vector<float>
-computePairHistogram(const SurfletSet& surflets, const HistogramRequest& request);
+PCL_SURFLET_API std::vector<float> computePairHistogram(const SurfletSet& surflets,
+                                                        const HistogramRequest& request);
 
 } // namespace detail
 
@@ -50,10 +50,11 @@ computePairHistogram(const SurfletSet& surflets, const HistogramRequest& request
  * (or of the largest object) with setDeltaMax(); by default it is measured, which makes the
  * descriptor independent of scale.
  *
- * Invalid points and misuse are treated as by SurfletPairFeature. If no pair has a feature the output
- * is empty. */
+ * Invalid points and misuse are treated as by SurfletPairFeature. If no pair has a feature the
+ * output is empty. */
 template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairHistogram625>
-class SurfletPairHistogramEstimation : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
+class SurfletPairHistogramEstimation
+    : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
 public:
   using Ptr = pcl::shared_ptr<SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>>;
   using ConstPtr =
@@ -68,7 +69,8 @@ public:
   {
     request_.resolution = resolution;
   }
-  /** \brief Upper end of delta in the cloud's unit; 0 (default): the largest distance in the cloud. */
+  /** \brief Upper end of delta in the cloud's unit; 0 (default): the largest distance in the cloud.
+   */
   void
   setDeltaMax(double delta_max)
   {
@@ -94,12 +96,10 @@ public:
 
   /** \brief Computes the descriptor; hides pcl::Feature::compute(), which would make one output per
    * point. */
-  void
-  compute(PointCloudOut& output);
+  void compute(PointCloudOut& output);
 
 private:
-  void
-  computeFeature(PointCloudOut& output) override;
+  void computeFeature(PointCloudOut& output) override;
 
   detail::HistogramRequest request_;
 };

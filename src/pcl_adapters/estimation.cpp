@@ -20,8 +20,12 @@ constexpr std::uint64_t kBlock = 1 << 16;
 SurfletPairSignature
 signature(const PairFeature& f, std::uint32_t i, std::uint32_t j)
 {
-  return {static_cast<float>(f.alpha), static_cast<float>(f.beta), static_cast<float>(f.gamma),
-          static_cast<float>(f.delta), i, j};
+  return {static_cast<float>(f.alpha),
+          static_cast<float>(f.beta),
+          static_cast<float>(f.gamma),
+          static_cast<float>(f.delta),
+          i,
+          j};
 }
 
 /** \brief Features of some pairs, in order. */
@@ -34,7 +38,8 @@ class PairComputation {
 public:
   PairComputation(const SurfletSet& surflets, double maximum_distance)
       : surflets_(surflets), longest_(maximum_distance > 0 ? maximum_distance : INFINITY)
-  {}
+  {
+  }
 
   void
   add(std::uint32_t i, std::uint32_t j, PairBlock& block) const
@@ -134,11 +139,10 @@ computePairHistogram(const SurfletSet& surflets, const HistogramRequest& request
     return {};
   const PairSource source(surflets);
   const std::uint64_t m = surflets.size();
-  const auto counted =
-      m * (m - 1) / 2 <= request.pairs
-          ? countAllPairs(source, request.resolution, delta_max, request.threads)
-          : countDrawnPairs(source, request.resolution, delta_max, request.pairs, request.seed,
-                            request.threads);
+  const auto counted = m * (m - 1) / 2 <= request.pairs
+                           ? countAllPairs(source, request.resolution, delta_max, request.threads)
+                           : countDrawnPairs(source, request.resolution, delta_max, request.pairs,
+                                             request.seed, request.threads);
   if (counted.features == 0)
     return {};
   const auto h = counted.normalized();

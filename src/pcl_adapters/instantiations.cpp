@@ -1,5 +1,5 @@
-// The templates for the point types most people use, so that users' files compile fast. Other types:
-// define PCL_NO_PRECOMPILE before including our headers.
+// The templates for the point types most people use, so that users' files compile fast. Other
+// types: define PCL_NO_PRECOMPILE before including our headers.
 
 #include "pcl_surflet/impl/surflet_pair_feature.hpp"
 #include "pcl_surflet/impl/surflet_pair_histogram.hpp"

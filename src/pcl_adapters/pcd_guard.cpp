@@ -48,7 +48,8 @@ parseNumber(const std::string& token, std::uint64_t& value)
 {
   const auto* end = token.data() + token.size();
   const auto result = std::from_chars(token.data(), end, value);
-  return result.ec == std::errc() && result.ptr == end && value <= std::numeric_limits<std::uint32_t>::max();
+  return result.ec == std::errc() && result.ptr == end &&
+         value <= std::numeric_limits<std::uint32_t>::max();
 }
 
 bool
@@ -125,7 +126,8 @@ headerProblem(const Header& h)
 {
   if (h.fields == 0 || h.sizes.size() != h.fields || h.counts.size() != h.fields)
     return "its header names " + std::to_string(h.fields) + " fields, but " +
-           std::to_string(h.sizes.size()) + " sizes and " + std::to_string(h.counts.size()) + " counts";
+           std::to_string(h.sizes.size()) + " sizes and " + std::to_string(h.counts.size()) +
+           " counts";
   for (std::size_t i = 0; i < h.fields; ++i)
     if ((h.sizes[i] != 1 && h.sizes[i] != 2 && h.sizes[i] != 4 && h.sizes[i] != 8) ||
         h.counts[i] > kLargestCount)

@@ -42,7 +42,8 @@ estimateNormals(const Points& cloud, const Eigen::Vector3f& sensor, int neighbou
   return normals;
 }
 
-/** \brief Turns every normal against its viewing direction; no normal where there is no direction. */
+/** \brief Turns every normal against its viewing direction; no normal where there is no direction.
+ */
 void
 orientAgainst(const pcl::PointCloud<pcl::PointNormal>& directions, const pcl::Indices& kept,
               Normals& normals)
@@ -64,7 +65,8 @@ ConvertedSurflets
 surfletsFromDepth(const Points& cloud, const Eigen::Vector3f& sensor)
 {
   if (!cloud.isOrganized() || cloud.width < 3 || cloud.height < 3)
-    throw std::invalid_argument("pcl_surflet: depth clouds must be organised, at least 3 x 3 pixels");
+    throw std::invalid_argument(
+        "pcl_surflet: depth clouds must be organised, at least 3 x 3 pixels");
   pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
   estimation.setNormalEstimationMethod(estimation.AVERAGE_3D_GRADIENT);
   estimation.setInputCloud(shared(cloud));

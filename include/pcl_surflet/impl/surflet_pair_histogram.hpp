@@ -38,8 +38,9 @@ pcl_surflet::SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>::compu
     return;
   const auto histogram = detail::computePairHistogram(converted.surflets, request_);
   if (histogram.empty()) {
-    PCL_ERROR("[pcl_surflet::%s::compute] None of the %zu usable points make a pair with a feature.\n",
-              this->feature_name_.c_str(), converted.surflets.size());
+    PCL_ERROR(
+        "[pcl_surflet::%s::compute] None of the %zu usable points make a pair with a feature.\n",
+        this->feature_name_.c_str(), converted.surflets.size());
     return;
   }
   output.resize(1);
