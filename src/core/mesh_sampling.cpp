@@ -1,3 +1,4 @@
+#include "draw_interval.h"
 #include "vector3.h"
 
 #include "pcl_surflet/core/counter_random.h"
@@ -42,26 +43,17 @@ class SurfaceSampler {
 public:
   explicit SurfaceSampler(const TriangleMesh& mesh) : mesh_(mesh), normals_(umbrellaNormals(mesh))
   {
+    cumulative_.reserve(mesh.triangles.size());
     double sum = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const double area = detail::norm(ownNormal(mesh.triangles[i]));
-      if (!(area > 0))
-        continue;
-      sum += area;
-      triangles_.push_back(i);
-      cumulative_.push_back(sum);
-    }
+    for (const auto& t : mesh.triangles)
+      cumulative_.push_back(sum += detail::norm(ownNormal(t)));
   }
 
   /** \brief The surflet at (\p a, \p b, \p c), three numbers uniform in [0, 1). */
   Surflet
   at(double a, double b, double c) const
   {
-    const auto it =
-        std::upper_bound(cumulative_.begin(), cumulative_.end(), a * cumulative_.back());
-    const auto drawn = std::min<std::size_t>(static_cast<std::size_t>(it - cumulative_.begin()),
-                                             triangles_.size() - 1);
-    const auto& t = mesh_.triangles[triangles_[drawn]];
+    const auto& t = mesh_.triangles[detail::drawInterval(cumulative_, a)];
     const double s = std::sqrt(b);
     const Vector3 weights = {1 - s, s * (1 - c), s * c};
     Vector3 p = {0, 0, 0}, n = {0, 0, 0};
@@ -89,8 +81,7 @@ private:
 
   const TriangleMesh& mesh_;
   std::vector<TriangleMesh::Point> normals_;
-  std::vector<std::size_t> triangles_; ///< those with area
-  std::vector<double> cumulative_;     ///< twice the area up to and with each of them
+  std::vector<double> cumulative_; ///< twice the area up to and with each triangle
 };
 
 /** \brief Accepts points no two of which are closer than a radius.

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <clocale>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -11,6 +12,10 @@
 #include <sstream>
 #include <string>
 
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
 #include <unistd.h>
 
 using namespace pcl_surflet;
@@ -53,6 +58,18 @@ protected:
   {
     try {
       load(text);
+    }
+    catch (const MeshFileError& e) {
+      return e.what();
+    }
+    return "no exception";
+  }
+
+  static std::string
+  saveFailure(const TriangleMesh& mesh, const std::string& where)
+  {
+    try {
+      saveOff(mesh, where);
     }
     catch (const MeshFileError& e) {
       return e.what();
@@ -315,26 +332,54 @@ TEST_F(MeshFile, OverwritesKeepingLinksAndPermissions)
 TEST_F(MeshFile, ReportsWhatCannotBeWritten)
 {
   const TriangleMesh mesh = load(kTriangle);
-  const auto message = [&](const TriangleMesh& m, const std::string& where) -> std::string {
-    try {
-      saveOff(m, where);
-    }
-    catch (const MeshFileError& e) {
-      return e.what();
-    }
-    return "no exception";
-  };
-  EXPECT_CONTAINS(message(mesh, path("absent/mesh.off")), "cannot be written");
-  EXPECT_CONTAINS(message(mesh, directory_.string()), "it is a directory");
+  EXPECT_CONTAINS(saveFailure(mesh, path("absent/mesh.off")), "cannot be written");
+  EXPECT_CONTAINS(saveFailure(mesh, directory_.string()), "it is a directory");
   TriangleMesh bad = mesh;
   bad.triangles[0][2] = 3;
-  EXPECT_CONTAINS(message(bad, path("bad.off")), "not written: triangle 0 refers to vertex 3");
+  EXPECT_CONTAINS(saveFailure(bad, path("bad.off")), "not written: triangle 0 refers to vertex 3");
   bad = mesh;
   bad.vertices[1][0] = std::numeric_limits<float>::infinity();
-  EXPECT_CONTAINS(message(bad, path("bad.off")), "not finite");
+  EXPECT_CONTAINS(saveFailure(bad, path("bad.off")), "not finite");
   EXPECT_FALSE(fs::exists(path("bad.off")));
-  if (fs::is_character_file("/dev/full")) {
-    EXPECT_CONTAINS(message(mesh, "/dev/full"), "No space left");
-    EXPECT_TRUE(fs::is_character_file("/dev/full"));
-  }
+}
+
+TEST_F(MeshFile, KeepsTheOldFileWhenWritingFails)
+{
+  const TriangleMesh mesh = meshOfShape(*shapeByName("torus"), 0.01);
+  std::ofstream(path("old.off")) << "old";
+  // A limit on the size of files fails in the middle of writing, as a full disk does.
+  rlimit limit{};
+  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
+  const auto before = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small = {4096, limit.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
+  const std::string message = saveFailure(mesh, path("old.off"));
+  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
+  std::signal(SIGXFSZ, before);
+  EXPECT_CONTAINS(message, "File too large");
+  EXPECT_CONTAINS(message, "free space");
+  EXPECT_EQ(contentOf(path("old.off")), "old");
+  EXPECT_EQ(filesInDirectory(), 1u);
+}
+
+TEST_F(MeshFile, WritesToPipesAndDevicesWithoutReplacingThem)
+{
+  const TriangleMesh mesh = load(kTriangle);
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  const int reader = ::open(path("pipe").c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  saveOff(mesh, path("pipe"));
+  char text[100] = {};
+  EXPECT_GT(::read(reader, text, sizeof text - 1), 0);
+  ::close(reader);
+  EXPECT_CONTAINS(text, "3 0 1 2");
+  EXPECT_TRUE(fs::is_fifo(path("pipe")));
+  // A full device of our own: code that fails this test as root would replace the system's.
+  const int made = ::mknod(path("full").c_str(), S_IFCHR | 0600, ::makedev(1, 7));
+  const int full = made == 0 ? ::open(path("full").c_str(), O_WRONLY) : -1;
+  if (full < 0)
+    GTEST_SKIP() << "devices cannot be made here";
+  ::close(full);
+  EXPECT_CONTAINS(saveFailure(mesh, path("full")), "No space left");
+  EXPECT_TRUE(fs::is_character_file(path("full")));
 }

@@ -339,5 +339,6 @@ TEST(Shapes, RefuseImpossibleSizes)
   EXPECT_THROW(Shape::cup(0.05, 0.1, 0.005, 0.01, 0.02), std::invalid_argument);
   EXPECT_THROW(meshOfShape(Shape::sphere(1), 0), std::invalid_argument);
   for (const auto& name : shapeNames())
-    EXPECT_THROW(meshOfShape(*shapeByName(name), 1e-9), std::invalid_argument) << name;
+    for (const double edge : {1e-5, 1e-9, 1e-300})
+      EXPECT_THROW(meshOfShape(*shapeByName(name), edge), std::invalid_argument) << name << edge;
 }

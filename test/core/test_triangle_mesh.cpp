@@ -114,6 +114,19 @@ TEST(TriangleMesh, UmbrellaNormalsAreZeroWhereThereIsNoDirection)
     EXPECT_EQ(n, (TriangleMesh::Point{0, 0, 0}));
 }
 
+TEST(TriangleMesh, UmbrellaNormalsAreZeroWhereOnlyRoundingIsLeft)
+{
+  // Two sides of a tilted sheet whose triangles are summed in different orders.
+  TriangleMesh mesh;
+  for (const double t : {0.3, 1.1, 2.9, 4.4})
+    mesh.vertices.push_back(
+        {float(std::cos(t)), float(std::sin(t)), float(0.37 * std::cos(t) - 0.71 * std::sin(t))});
+  mesh.vertices.push_back({0.1f, 0.05f, float(0.37 * 0.1f - 0.71 * 0.05f)});
+  mesh.triangles = {{4, 0, 1}, {4, 1, 2}, {4, 2, 3}, {4, 3, 0},
+                    {4, 0, 3}, {4, 2, 1}, {4, 3, 2}, {4, 1, 0}};
+  EXPECT_EQ(umbrellaNormals(mesh)[4], (TriangleMesh::Point{0, 0, 0}));
+}
+
 TEST(RefineEdges, LeavesNoLongEdgeAndKeepsTheSurface)
 {
   const TriangleMesh fine = refineEdges(cube(1), 0.11);
