@@ -8,6 +8,8 @@
 #include <set>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::test;
@@ -280,6 +282,9 @@ TEST(Shapes, CupIsTheUnionOfVesselAndHandle)
     else if (r > radius * 0.9999 && s.x[i] > 0) { // on the wall, outside of the tube
       ASSERT_GT(to_ring, thick * 0.999);
     }
+    else if (r > radius - wall + 1e-5 && r < radius * 0.9999) { // rim and bottom, not inside walls
+      ASSERT_LT(std::min<double>(s.z[i], height - s.z[i]), 1e-6);
+    }
   }
   // Half a torus, and a little where the round wall recedes (a thickness^2 / (8 radius) on average
   // for each end of the tube, less than 1 %).
@@ -289,6 +294,23 @@ TEST(Shapes, CupIsTheUnionOfVesselAndHandle)
                                 (radius * radius - std::pow(radius - wall, 2)) +
                                 2 * (radius - wall) * (height - wall) + std::pow(radius - wall, 2));
   EXPECT_NEAR(areaOfShape(cup) / (vessel + half_torus - 2 * M_PI * thick * thick), 1, 2e-3);
+}
+
+TEST(Shapes, CupHandleEndsOnTheWall)
+{
+  const double radius = 0.042;
+  const TriangleMesh mesh = meshOfShape(Shape::cup(radius, 0.1, 0.005, 0.03, 0.006), 0.003);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (const auto& t : mesh.triangles)
+    for (int e = 0; e < 3; ++e)
+      edges.insert({t[e], t[(e + 1) % 3]});
+  std::size_t open = 0;
+  for (const auto& [a, b] : edges)
+    if (edges.count({b, a}) == 0) { // the seam: the tube's ends and the holes in the wall
+      ++open;
+      EXPECT_NEAR(std::hypot(mesh.vertices[a][0], mesh.vertices[a][1]), radius, 1e-6);
+    }
+  EXPECT_GT(open, 40u);
 }
 
 TEST(Shapes, CupAreaMatchesItsFineMesh)
