@@ -18,8 +18,8 @@ namespace {
 /** \brief Keeps these draws apart from those of others that are given the same seed. */
 constexpr std::uint64_t kSurfaceStream = 0x73757266616365ULL;
 
-/** \brief Points of the dense sample per point kept. More make the thinned sample fuller and the
- * work longer; at 8 the spacing already is 95 % of that of a saturated sample. */
+/** \brief Points of the dense sample per point kept. More make the thinned sample more even and
+ * the work longer. */
 constexpr std::size_t kDenseFactor = 8;
 constexpr std::size_t kMinDense = 512;
 constexpr std::size_t kMaxTarget = std::size_t{1} << 28; ///< dense samples have 32-bit indices
@@ -86,8 +86,8 @@ private:
 
 /** \brief Accepts points no two of which are closer than a radius.
  *
- * A hash grid of cells two radii wide: a ball reaches at most 8 cells (27 with cells one radius
- * wide: three times slower). Cells whose hashes collide share a bucket; the distance test sorts
+ * A hash grid of cells two radii wide: a ball reaches at most 8 cells (with cells one radius
+ * wide it would be 27). Cells whose hashes collide share a bucket; the distance test sorts
  * that out, so keys are not stored. */
 class DartGrid {
 public:
@@ -175,8 +175,8 @@ thinned(const SurfletSet& dense, double radius, std::size_t expected)
 
 /** \brief Thins \p dense to about \p target points, adjusting the radius from \p radius.
  *
- * Newton-like steps (the count of a surface goes with 1 / radius^2) inside a bracket: two or three
- * do on ordinary surfaces; bisection takes over where the law does not hold, as on needles. */
+ * Newton-like steps (the count of a surface goes with 1 / radius^2) inside a bracket;
+ * bisection takes over where the law does not hold, as on needles. */
 std::vector<std::uint32_t>
 thinnedTo(const SurfletSet& dense, std::size_t target, double radius)
 {
@@ -230,7 +230,7 @@ sampleIsoMesh(const TriangleMesh& mesh, std::size_t target, std::uint64_t seed)
       refineEdges(mesh, spacing, mesh.triangles.size() + kTrianglesPerPoint * target);
   const SurfletSet dense = sampleSurface(refined, std::max(kDenseFactor * target, kMinDense), seed);
   // Random disks of diameter r saturate at about half of the area; a finite dense sample fills a
-  // little less: r = 0.75 spacing is the right guess on smooth surfaces.
+  // little less. With 0.75 spacings the first count is near the target on smooth surfaces.
   return dense.subset(thinnedTo(dense, target, 0.75 * spacing));
 }
 
