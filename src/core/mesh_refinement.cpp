@@ -16,6 +16,9 @@ using detail::Vector3;
 namespace {
 
 using Index = std::uint32_t;
+/** \brief An edge's middle may move by this share of the edge when it is rounded to floats. */
+constexpr double kLargestShift = 0.01;
+
 constexpr Index kNotSplit = std::numeric_limits<Index>::max();
 
 /** \brief Name of the edge (a, b), the same from both of its triangles. */
@@ -33,22 +36,26 @@ squaredLength(const TriangleMesh& mesh, Index a, Index b)
   return detail::dot(d, d);
 }
 
-TriangleMesh::Point
+Vector3
 middle(const TriangleMesh& mesh, Index a, Index b)
 {
-  return detail::toFloat3(detail::scaled(
-      detail::add(detail::toVector3(mesh.vertices[a]), detail::toVector3(mesh.vertices[b])), 0.5));
+  return detail::scaled(
+      detail::add(detail::toVector3(mesh.vertices[a]), detail::toVector3(mesh.vertices[b])), 0.5);
 }
 
-/** \brief Whether the edge (a, b) is longer than a squared length and can be split: where no float
- * lies between its ends (far from the origin), splitting would never end. */
+/** \brief Whether the edge (a, b) is longer than a squared length and can be split.
+ *
+ * Far from the origin floats lie so far apart that the middle of a short edge rounds to somewhere
+ * else: splitting would bend the surface, then flatten it, and never end. */
 bool
 mustSplit(const TriangleMesh& mesh, Index a, Index b, double longer_than)
 {
-  if (squaredLength(mesh, a, b) <= longer_than)
+  const double length = squaredLength(mesh, a, b);
+  if (length <= longer_than)
     return false;
-  const auto m = middle(mesh, a, b);
-  return m != mesh.vertices[a] && m != mesh.vertices[b];
+  const Vector3 exact = middle(mesh, a, b);
+  const Vector3 error = detail::subtract(detail::toVector3(detail::toFloat3(exact)), exact);
+  return detail::dot(error, error) <= kLargestShift * kLargestShift * length;
 }
 
 /** \brief One round of splitting: all edges longer than a threshold at once.
@@ -76,7 +83,8 @@ public:
     out.vertices = mesh_.vertices;
     out.vertices.reserve(mesh_.vertices.size() + keys_.size());
     for (const auto key : keys_)
-      out.vertices.push_back(middle(mesh_, static_cast<Index>(key >> 32), static_cast<Index>(key)));
+      out.vertices.push_back(
+          detail::toFloat3(middle(mesh_, static_cast<Index>(key >> 32), static_cast<Index>(key))));
     out.triangles.reserve(mesh_.triangles.size() + 2 * keys_.size());
     for (const auto& t : mesh_.triangles)
       splitTriangle(t, out);

@@ -1,3 +1,4 @@
+#include "draw_interval.h"
 #include "vector3.h"
 
 #include "pcl_surflet/core/counter_random.h"
@@ -17,8 +18,8 @@ namespace {
 /** \brief Keeps these draws apart from those of others that are given the same seed. */
 constexpr std::uint64_t kSurfaceStream = 0x73757266616365ULL;
 
-/** \brief Points of the dense sample per point kept. More make the thinned sample fuller and the
- * work longer; at 8 the spacing already is 95 % of that of a saturated sample. */
+/** \brief Points of the dense sample per point kept. More make the thinned sample more even and
+ * the work longer. */
 constexpr std::size_t kDenseFactor = 8;
 constexpr std::size_t kMinDense = 512;
 constexpr std::size_t kMaxTarget = std::size_t{1} << 28; ///< dense samples have 32-bit indices
@@ -42,26 +43,17 @@ class SurfaceSampler {
 public:
   explicit SurfaceSampler(const TriangleMesh& mesh) : mesh_(mesh), normals_(umbrellaNormals(mesh))
   {
+    cumulative_.reserve(mesh.triangles.size());
     double sum = 0;
-    for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
-      const double area = detail::norm(ownNormal(mesh.triangles[i]));
-      if (!(area > 0))
-        continue;
-      sum += area;
-      triangles_.push_back(i);
-      cumulative_.push_back(sum);
-    }
+    for (const auto& t : mesh.triangles)
+      cumulative_.push_back(sum += detail::norm(ownNormal(t)));
   }
 
   /** \brief The surflet at (\p a, \p b, \p c), three numbers uniform in [0, 1). */
   Surflet
   at(double a, double b, double c) const
   {
-    const auto it =
-        std::upper_bound(cumulative_.begin(), cumulative_.end(), a * cumulative_.back());
-    const auto drawn = std::min<std::size_t>(static_cast<std::size_t>(it - cumulative_.begin()),
-                                             triangles_.size() - 1);
-    const auto& t = mesh_.triangles[triangles_[drawn]];
+    const auto& t = mesh_.triangles[detail::drawInterval(cumulative_, a)];
     const double s = std::sqrt(b);
     const Vector3 weights = {1 - s, s * (1 - c), s * c};
     Vector3 p = {0, 0, 0}, n = {0, 0, 0};
@@ -89,14 +81,13 @@ private:
 
   const TriangleMesh& mesh_;
   std::vector<TriangleMesh::Point> normals_;
-  std::vector<std::size_t> triangles_; ///< those with area
-  std::vector<double> cumulative_;     ///< twice the area up to and with each of them
+  std::vector<double> cumulative_; ///< twice the area up to and with each triangle
 };
 
 /** \brief Accepts points no two of which are closer than a radius.
  *
- * A hash grid of cells two radii wide: a ball reaches at most 8 cells (27 with cells one radius
- * wide: three times slower). Cells whose hashes collide share a bucket; the distance test sorts
+ * A hash grid of cells two radii wide: a ball reaches at most 8 cells (with cells one radius
+ * wide it would be 27). Cells whose hashes collide share a bucket; the distance test sorts
  * that out, so keys are not stored. */
 class DartGrid {
 public:
@@ -184,8 +175,8 @@ thinned(const SurfletSet& dense, double radius, std::size_t expected)
 
 /** \brief Thins \p dense to about \p target points, adjusting the radius from \p radius.
  *
- * Newton-like steps (the count of a surface goes with 1 / radius^2) inside a bracket: two or three
- * do on ordinary surfaces; bisection takes over where the law does not hold, as on needles. */
+ * Newton-like steps (the count of a surface goes with 1 / radius^2) inside a bracket;
+ * bisection takes over where the law does not hold, as on needles. */
 std::vector<std::uint32_t>
 thinnedTo(const SurfletSet& dense, std::size_t target, double radius)
 {
@@ -239,7 +230,7 @@ sampleIsoMesh(const TriangleMesh& mesh, std::size_t target, std::uint64_t seed)
       refineEdges(mesh, spacing, mesh.triangles.size() + kTrianglesPerPoint * target);
   const SurfletSet dense = sampleSurface(refined, std::max(kDenseFactor * target, kMinDense), seed);
   // Random disks of diameter r saturate at about half of the area; a finite dense sample fills a
-  // little less: r = 0.75 spacing is the right guess on smooth surfaces.
+  // little less. With 0.75 spacings the first count is near the target on smooth surfaces.
   return dense.subset(thinnedTo(dense, target, 0.75 * spacing));
 }
 

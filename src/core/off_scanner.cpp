@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <limits>
 #include <system_error>
 
 namespace pcl_surflet {
@@ -31,10 +30,14 @@ afterPlus(const std::string& token)
   return token.data() + (token.size() > 1 && token[0] == '+' && token[1] != '-' ? 1 : 0);
 }
 
-/** \brief Whether a number that std::from_chars found out of range is too small, not too large. */
+/** \brief Whether a number out of the range of float is too small, not too large. */
 bool
 underflows(const std::string& token)
 {
+  double value = 0;
+  const auto result = std::from_chars(afterPlus(token), token.data() + token.size(), value);
+  if (result.ec == std::errc())
+    return std::abs(value) < 1;
   return token.find("e-") != std::string::npos || token.find("E-") != std::string::npos;
 }
 
@@ -135,19 +138,19 @@ OffScanner::coordinate(const std::string& what)
 {
   required(what);
   const char* const end = token_.data() + token_.size();
-  double value = 0;
+  // Parsed as a float at once: by way of double it would be rounded twice, the largest float away.
+  float value = 0;
   const auto result = std::from_chars(afterPlus(token_), end, value);
   if (result.ptr != end || result.ec == std::errc::invalid_argument)
     fail(what + " is " + forMessage(token_) + ", not a number",
          "correct it or export the mesh again (vertices must start on lines of their own)");
-  if (result.ec == std::errc::result_out_of_range)
-    value = underflows(token_) ? 0 : HUGE_VAL;
-  // The comparison keeps the conversion defined: a double beyond every float must not be cast.
-  const bool fits = std::abs(value) <= static_cast<double>(std::numeric_limits<float>::max());
-  if (!fits)
+  const bool out_of_range = result.ec == std::errc::result_out_of_range;
+  if (out_of_range && underflows(token_))
+    return 0;
+  if (out_of_range || !std::isfinite(value))
     fail(what + " is " + forMessage(token_) + ", not finite in single precision",
          "remove the vertex or choose another unit of length");
-  return static_cast<float>(value);
+  return value;
 }
 
 std::uint64_t

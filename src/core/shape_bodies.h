@@ -124,9 +124,6 @@ private:
 std::vector<Shape::ProfilePoint> vesselProfile(const std::vector<Shape::ProfilePoint>& outer,
                                                double wall, double inner_bottom);
 
-/** \brief Number of the interval of ascending \p cumulative sums that \p u in [0, 1) falls into. */
-std::size_t drawInterval(const std::vector<double>& cumulative, double u);
-
 /** \brief Throws std::invalid_argument if a mesh would have too many triangles. */
 void checkMeshSize(double triangles);
 

@@ -1,3 +1,4 @@
+#include "draw_interval.h"
 #include "shape_bodies.h"
 
 #include <algorithm>
@@ -20,15 +21,21 @@ slicesAround(double radius, double longest_edge)
   return static_cast<std::uint32_t>(slices);
 }
 
-/** \brief The profile with points added until no step is longer than \p longest. */
+/** \brief Steps not longer than \p longest_edge / sqrt 2 between two profile points. */
+double
+stepsBetween(const Shape::ProfilePoint& a, const Shape::ProfilePoint& b, double longest_edge)
+{
+  return std::ceil(std::hypot(b[0] - a[0], b[1] - a[1]) * kSqrt2 / longest_edge);
+}
+
+/** \brief The profile with points added so that stepsBetween() holds. */
 std::vector<Shape::ProfilePoint>
-subdivided(const std::vector<Shape::ProfilePoint>& profile, double longest)
+subdivided(const std::vector<Shape::ProfilePoint>& profile, double longest_edge)
 {
   std::vector<Shape::ProfilePoint> out = {profile.front()};
   for (std::size_t i = 0; i + 1 < profile.size(); ++i) {
     const auto &a = profile[i], &b = profile[i + 1];
-    const double steps = std::ceil(std::hypot(b[0] - a[0], b[1] - a[1]) / longest);
-    checkMeshSize(steps);
+    const double steps = stepsBetween(a, b, longest_edge);
     for (double k = 1; k < steps; ++k)
       out.push_back({a[0] + (b[0] - a[0]) * k / steps, a[1] + (b[1] - a[1]) * k / steps});
     out.push_back(b);
@@ -117,12 +124,14 @@ RevolutionBody::sample(CounterRandom& random) const
 TriangleMesh
 RevolutionBody::mesh(double longest_edge) const
 {
-  const auto points = subdivided(profile_, longest_edge / kSqrt2);
-  double widest = 0;
-  for (const auto& p : points)
-    widest = std::max(widest, p[0]);
+  double widest = 0, steps = 0;
+  for (std::size_t i = 0; i < profile_.size(); ++i) {
+    widest = std::max(widest, profile_[i][0]);
+    steps += i > 0 ? stepsBetween(profile_[i - 1], profile_[i], longest_edge) : 0;
+  }
   const std::uint32_t slices = slicesAround(widest, longest_edge);
-  checkMeshSize(2.0 * slices * static_cast<double>(points.size()));
+  checkMeshSize(2.0 * slices * steps); // before anything of that size is made
+  const auto points = subdivided(profile_, longest_edge);
   const bool ring = points.front() == points.back();
   RingMesh rings(slices);
   const std::uint32_t first = rings.addRing(points.front());

@@ -1,3 +1,4 @@
+#include "draw_interval.h"
 #include "shape_bodies.h"
 
 #include <algorithm>

@@ -2,7 +2,6 @@
 
 #include "shape_bodies.h"
 
-#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -32,13 +31,6 @@ require(bool holds, const char* what)
 }
 
 } // namespace
-
-std::size_t
-detail::drawInterval(const std::vector<double>& cumulative, double u)
-{
-  const auto it = std::upper_bound(cumulative.begin(), cumulative.end(), u * cumulative.back());
-  return std::min(static_cast<std::size_t>(it - cumulative.begin()), cumulative.size() - 1);
-}
 
 void
 detail::checkMeshSize(double triangles)

@@ -13,8 +13,8 @@ using detail::Vector3;
 namespace {
 
 /** \brief Umbrella normals shorter than this share of the summed areas have cancelled: what is left
- * is rounding, not a direction. */
-constexpr double kCancelledNormal = 1e-9;
+ * is the rounding of the coordinates to floats, not a direction. */
+constexpr double kCancelledNormal = 1e-6;
 
 Vector3
 doubledAreaNormalOf(const TriangleMesh& mesh, const TriangleMesh::Triangle& t)

@@ -39,7 +39,7 @@ PCL_SURFLET_API std::vector<TriangleMesh::Point> umbrellaNormals(const TriangleM
  * Shared edges are split alike, so a closed mesh stays closed. CAD meshes need it before
  * umbrellaNormals(): on a cube of 12 triangles the umbrella normals of the corners would round the
  * whole faces. Stops (documented, not an error) when \p max_triangles is reached, the longest edges
- * first; edges between neighbouring floats are left alone.
+ * first; edges so far from the origin that floats are too coarse for their middle are left alone.
  * \throws std::invalid_argument if \p longest_edge is not positive or an index is out of range. */
 PCL_SURFLET_API TriangleMesh refineEdges(const TriangleMesh& mesh, double longest_edge,
                                          std::size_t max_triangles = 2000000);

@@ -34,8 +34,9 @@ toTriangleMesh(const pcl::PolygonMesh& mesh)
   for (const auto& polygon : mesh.polygons) {
     for (const auto v : polygon.vertices)
       if (static_cast<std::size_t>(v) >= vertices.size())
-        throw std::invalid_argument("pcl_surflet: a face of the mesh has a vertex index beyond its " +
-                                    std::to_string(vertices.size()) + " vertices");
+        throw std::invalid_argument(
+            "pcl_surflet: a face of the mesh has a vertex index beyond its " +
+            std::to_string(vertices.size()) + " vertices");
     for (std::size_t k = 2; k < polygon.vertices.size(); ++k)
       out.triangles.push_back({static_cast<std::uint32_t>(polygon.vertices[0]),
                                static_cast<std::uint32_t>(polygon.vertices[k - 1]),

@@ -1,0 +1,107 @@
+#include "pcl_surflet/sensed_surface.h"
+
+#include <pcl/common/point_tests.h>
+#include <pcl/features/integral_image_normal.h>
+#include <pcl/features/normal_3d_omp.h>
+
+namespace pcl_surflet {
+namespace {
+
+using Points = pcl::PointCloud<pcl::PointXYZ>;
+using Normals = pcl::PointCloud<pcl::Normal>;
+
+Points::ConstPtr
+shared(const Points& cloud)
+{
+  return Points::ConstPtr(&cloud, [](const Points*) {});
+}
+
+pcl::Indices
+allIndices(std::size_t n)
+{
+  pcl::Indices all(n);
+  for (std::size_t i = 0; i < n; ++i)
+    all[i] = static_cast<pcl::index_t>(i);
+  return all;
+}
+
+Normals
+estimateNormals(const Points& cloud, const Eigen::Vector3f& sensor, int neighbours,
+                unsigned threads)
+{
+  if (neighbours < 3)
+    throw std::invalid_argument("pcl_surflet: a normal needs at least 3 neighbours");
+  Normals normals;
+  if (cloud.empty())
+    return normals;
+  pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(threads);
+  estimation.setInputCloud(shared(cloud));
+  estimation.setKSearch(neighbours);
+  estimation.setViewPoint(sensor.x(), sensor.y(), sensor.z());
+  estimation.compute(normals);
+  return normals;
+}
+
+/** \brief Turns every normal against its viewing direction; no normal where there is no direction.
+ */
+void
+orientAgainst(const pcl::PointCloud<pcl::PointNormal>& directions, const pcl::Indices& kept,
+              Normals& normals)
+{
+  for (std::size_t k = 0; k < kept.size(); ++k) {
+    auto n = normals[k].getNormalVector3fMap();
+    const auto v = directions[static_cast<std::size_t>(kept[k])].getNormalVector3fMap();
+    const float along = n.dot(v);
+    if (!(v.squaredNorm() > 0) || !std::isfinite(along))
+      n.setConstant(std::numeric_limits<float>::quiet_NaN());
+    else if (along > 0)
+      n = -n;
+  }
+}
+
+} // namespace
+
+ConvertedSurflets
+surfletsFromDepth(const Points& cloud, const Eigen::Vector3f& sensor)
+{
+  if (!cloud.isOrganized() || cloud.width < 3 || cloud.height < 3)
+    throw std::invalid_argument(
+        "pcl_surflet: depth clouds must be organised, at least 3 x 3 pixels");
+  pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
+  estimation.setNormalEstimationMethod(estimation.AVERAGE_3D_GRADIENT);
+  estimation.setInputCloud(shared(cloud));
+  estimation.setViewPoint(sensor.x(), sensor.y(), sensor.z());
+  Normals normals;
+  estimation.compute(normals);
+  return toSurflets(cloud, normals, allIndices(cloud.size()));
+}
+
+ConvertedSurflets
+surfletsFromPoints(const Points& cloud, const Eigen::Vector3f& sensor, int neighbours,
+                   unsigned threads)
+{
+  return toSurflets(cloud, estimateNormals(cloud, sensor, neighbours, threads),
+                    allIndices(cloud.size()));
+}
+
+ConvertedSurflets
+surfletsFromDirections(const pcl::PointCloud<pcl::PointNormal>& seen, int neighbours,
+                       unsigned threads)
+{
+  Points points;
+  pcl::Indices kept;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    if (pcl::isXYZFinite(seen[i])) {
+      points.push_back({seen[i].x, seen[i].y, seen[i].z});
+      kept.push_back(static_cast<pcl::index_t>(i));
+    }
+  Normals normals = estimateNormals(points, Eigen::Vector3f::Zero(), neighbours, threads);
+  orientAgainst(seen, kept, normals);
+  auto out = toSurflets(points, normals, allIndices(points.size()));
+  for (auto& i : out.indices)
+    i = kept[static_cast<std::size_t>(i)];
+  out.rejected += seen.size() - points.size();
+  return out;
+}
+
+} // namespace pcl_surflet

@@ -1,0 +1,305 @@
+#include "pcl_surflet/core/shapes.h"
+#include "pcl_surflet/database_file.h"
+#include "pcl_surflet/recognition/histogram_model_trainer.h"
+
+#include <pcl/console/print.h>
+#include <pcl/io/pcd_io.h>
+
+#include <gtest/gtest.h>
+
+#include <csignal>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sys/resource.h>
+#include <unistd.h>
+
+using namespace pcl_surflet;
+namespace fs = std::filesystem;
+
+namespace {
+
+class DatabaseFile : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); // PCL's own words are not the point
+    directory_ = fs::temp_directory_path() / ("surflet_db_" + std::to_string(getpid()));
+    fs::create_directories(directory_);
+    path_ = (directory_ / "db.pcd").string();
+    HistogramModelTrainer trainer;
+    trainer.setResolution({3, 4, 5, 2});
+    database_.add(trainer.train("ball", sampleShape(Shape::sphere(0.1), 400, 1)));
+    auto cup = trainer.train("cup \xC3\xA9", sampleShape(*shapeByName("cup"), 400, 1));
+    cup.members.push_back(cup.members[0]);
+    cup.members[1].condition = "noise 1 %";
+    database_.add(cup);
+    trainer.setRole(ModelRole::Background);
+    database_.add(trainer.train("table", sampleShape(Shape::plane(1, 1), 400, 1)));
+    database_.setPenalty({0.5, 2e-5});
+  }
+  void
+  TearDown() override
+  {
+    fs::remove_all(directory_);
+  }
+
+  std::string
+  loadError(const std::string& path)
+  {
+    try {
+      loadDatabase(path);
+    }
+    catch (const DatabaseFileError& e) {
+      return e.what();
+    }
+    return "no error";
+  }
+
+  /** \brief Error after \p damage was done to the table of a good file. */
+  std::string
+  errorAfter(const std::function<void(pcl::PCLPointCloud2&)>& damage)
+  {
+    saveDatabase(database_, path_);
+    pcl::PCLPointCloud2 table;
+    EXPECT_EQ(pcl::PCDReader().read(path_, table), 0);
+    damage(table);
+    pcl::PCDWriter().writeBinary(path_, table);
+    return loadError(path_);
+  }
+
+  /** \brief Error after the value of \p field in entry \p row was overwritten. */
+  template <class T>
+  std::string
+  errorWith(const std::string& field, T value, std::size_t row = 1, std::size_t element = 0)
+  {
+    return errorAfter([&](pcl::PCLPointCloud2& table) {
+      for (const auto& f : table.fields)
+        if (f.name == field)
+          std::memcpy(table.data.data() + row * table.point_step + f.offset + element * sizeof(T),
+                      &value, sizeof(T));
+    });
+  }
+
+  std::string
+  content()
+  {
+    std::ifstream in(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void
+  write(const std::string& text)
+  {
+    std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
+  }
+
+  fs::path directory_;
+  std::string path_;
+  ModelDatabase database_;
+};
+
+/** \brief While it lives no file of this process can grow beyond \p bytes. A real /dev/full is no
+ * test object: a broken writer run as root would replace it. */
+class FullDisk {
+public:
+  explicit FullDisk(std::size_t bytes)
+  {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    handler_ = std::signal(SIGXFSZ, SIG_IGN);
+    rlimit limit = before_;
+    limit.rlim_cur = bytes;
+    setrlimit(RLIMIT_FSIZE, &limit);
+  }
+  ~FullDisk()
+  {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+private:
+  rlimit before_{};
+  void (*handler_)(int) = nullptr;
+};
+
+void
+expectHas(const std::string& text, const std::string& part)
+{
+  EXPECT_NE(text.find(part), std::string::npos) << "'" << part << "' is not in: " << text;
+}
+
+} // namespace
+
+TEST_F(DatabaseFile, RoundTripKeepsEverything)
+{
+  saveDatabase(database_, path_);
+  const auto loaded = loadDatabase(path_);
+  ASSERT_EQ(loaded.size(), database_.size());
+  for (std::size_t i = 0; i < loaded.size(); ++i) {
+    const auto &a = loaded[i], &b = database_[i];
+    EXPECT_EQ(a.label, b.label);
+    EXPECT_EQ(a.role, b.role);
+    EXPECT_EQ(a.resolution, b.resolution);
+    EXPECT_EQ(a.delta_max, b.delta_max);
+    EXPECT_EQ(a.r_mean, b.r_mean);
+    EXPECT_EQ(a.r_max, b.r_max);
+    EXPECT_EQ(a.r_min, b.r_min);
+    EXPECT_EQ(a.surface_area, b.surface_area);
+    ASSERT_EQ(a.members.size(), b.members.size());
+    for (std::size_t k = 0; k < a.members.size(); ++k) {
+      EXPECT_EQ(a.members[k].condition, b.members[k].condition);
+      EXPECT_EQ(a.members[k].features, b.members[k].features);
+      EXPECT_EQ(a.members[k].histogram, b.members[k].histogram);
+    }
+  }
+  EXPECT_EQ(loaded.getPenalty().tau, 0.5);
+  EXPECT_EQ(loaded.getPenalty().floor, 2e-5);
+}
+
+TEST_F(DatabaseFile, AsciiAndCompressedCopiesLoadToo)
+{
+  saveDatabase(database_, path_);
+  pcl::PCLPointCloud2 table;
+  ASSERT_EQ(pcl::PCDReader().read(path_, table), 0);
+  pcl::PCDWriter().writeBinaryCompressed(path_, table);
+  EXPECT_EQ(loadDatabase(path_)[1].members[1].histogram, database_[1].members[1].histogram);
+  pcl::PCDWriter().writeASCII(path_, table, Eigen::Vector4f::Zero(), Eigen::Quaternionf::Identity(),
+                              9);
+  EXPECT_EQ(loadDatabase(path_)[0].label, "ball");
+  EXPECT_EQ(loadDatabase(path_)[0].members[0].histogram, database_[0].members[0].histogram);
+}
+
+TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
+{
+  const double nan = std::nan("");
+  expectHas(errorWith("format_version", std::uint32_t{2}), "format version 2");
+  expectHas(errorWith("role", std::uint32_t{7}), "role");
+  expectHas(errorWith("member", std::uint32_t{5}, 2), "member");
+  expectHas(errorWith("resolution", std::uint32_t{4000000000u}), "resolution");
+  expectHas(errorWith("resolution", std::uint32_t{7}), "bins");
+  for (const auto* field : {"delta_max", "r_mean", "r_max", "r_min", "surface_area"}) {
+    expectHas(errorWith(field, nan, 0), "not finite");
+    expectHas(errorWith(field, -1.0, 0), "negative");
+  }
+  expectHas(errorWith("delta_max", 0.0, 0), "delta_max");
+  expectHas(errorWith("r_max", 1e6, 0), "radii");
+  expectHas(errorWith("features", nan), "features");
+  expectHas(errorWith("features", -3.0), "features");
+  expectHas(errorWith("tau", 0.25), "tau or floor");
+  expectHas(errorWith("histogram", std::nanf(""), 1, 3), "not finite");
+  expectHas(errorWith("histogram", -0.5f, 1, 3), "negative");
+  expectHas(errorWith("histogram", 0.5f, 1, 3), "sum");
+  expectHas(errorWith("label", char{0}, 0), "label");
+  expectHas(errorWith("label", char{7}, 0), "control");
+  expectHas(errorAfter([](auto& t) { std::memset(t.data.data() + t.fields[1].offset, 'x', 64); }),
+            "end");
+  // The file and the remedy are named too.
+  expectHas(errorWith("r_max", 1e6, 0), path_);
+  expectHas(errorWith("r_max", 1e6, 0), "train it again");
+}
+
+TEST_F(DatabaseFile, PenaltyIsChecked)
+{
+  expectHas(errorAfter([&](auto& t) {
+              for (std::size_t row = 0; row < t.width; ++row)
+                for (const auto& f : t.fields)
+                  if (f.name == "tau")
+                    std::memset(t.data.data() + row * t.point_step + f.offset, 0, 8);
+            }),
+            "tau");
+}
+
+TEST_F(DatabaseFile, MissingOrForeignFieldsAreRefused)
+{
+  for (int k = 0; k < 15; ++k) {
+    std::string name;
+    const auto error = errorAfter([&](auto& t) {
+      name = t.fields[static_cast<std::size_t>(k)].name;
+      t.fields[static_cast<std::size_t>(k)].name = "other";
+    });
+    expectHas(error, "no field '" + name + "'");
+  }
+  expectHas(errorAfter([](auto& t) { t.fields[3].datatype = pcl::PCLPointField::FLOAT32; }),
+            "role");
+}
+
+TEST_F(DatabaseFile, TwoModelsOfOneLabelAreRefused)
+{
+  expectHas(errorAfter([](auto& t) {
+              const auto& f = t.fields[1];
+              std::memcpy(t.data.data() + 3 * t.point_step + f.offset, t.data.data() + f.offset,
+                          64);
+            }),
+            "already");
+}
+
+TEST_F(DatabaseFile, EveryTruncationIsRefused)
+{
+  saveDatabase(database_, path_);
+  const auto whole = content();
+  for (std::size_t n = 0; n < whole.size(); n += std::max<std::size_t>(1, whole.size() / 97)) {
+    write(whole.substr(0, n));
+    EXPECT_NE(loadError(path_), "no error") << n;
+  }
+}
+
+TEST_F(DatabaseFile, HostileHeadersDoNotAllocate)
+{
+  saveDatabase(database_, path_);
+  const auto whole = content();
+  const auto with = [&](const std::string& entry, const std::string& value) {
+    auto text = whole;
+    const auto at = text.find(entry);
+    text.replace(at, text.find('\n', at) - at, entry + " " + value);
+    write(text);
+    return loadError(path_);
+  };
+  expectHas(with("POINTS", "4000000000"), "points");
+  expectHas(with("WIDTH", "99999999999999999999"), "WIDTH");
+  expectHas(with("WIDTH", "-4"), "WIDTH");
+  expectHas(with("COUNT", "1 64 64 1 1 4 1 1 1 1 1 1 1 1 4000000000"), "count");
+  expectHas(with("COUNT", "1 64"), "fields");
+  expectHas(with("DATA", "telepathy"), "telepathy");
+  expectHas(with("FIELDS", ""), "fields");
+}
+
+TEST_F(DatabaseFile, WhatIsNoDatabaseIsRefused)
+{
+  expectHas(loadError((directory_ / "absent.pcd").string()), "does not exist");
+  expectHas(loadError(directory_.string()), "directory");
+  write("");
+  expectHas(loadError(path_), "empty");
+  write("OFF\n8 12 0\n");
+  expectHas(loadError(path_), "PCD");
+  write(std::string(100000, '\0'));
+  expectHas(loadError(path_), "PCD");
+  pcl::PointCloud<pcl::PointXYZ> cloud(3, 1);
+  pcl::io::savePCDFileBinary(path_, cloud);
+  expectHas(loadError(path_), "no field 'format_version'");
+}
+
+TEST_F(DatabaseFile, WritingIsAtomicAndFailuresAreTold)
+{
+  saveDatabase(database_, path_);
+  const auto before = content();
+  EXPECT_THROW(saveDatabase(ModelDatabase{}, path_), DatabaseFileError);
+  EXPECT_EQ(content(), before);
+  EXPECT_THROW(saveDatabase(database_, (directory_ / "no" / "db.pcd").string()), DatabaseFileError);
+  EXPECT_THROW(saveDatabase(database_, directory_.string()), DatabaseFileError);
+  {
+    const FullDisk full(content().size() / 2);
+    EXPECT_THROW(saveDatabase(database_, path_), DatabaseFileError);
+  }
+  EXPECT_EQ(content(), before);
+  // Nothing but the database is left behind.
+  EXPECT_EQ(std::distance(fs::directory_iterator(directory_), fs::directory_iterator()), 1);
+}
+
+TEST_F(DatabaseFile, SameDatabaseSameBytes)
+{
+  saveDatabase(database_, path_);
+  const auto once = content();
+  saveDatabase(loadDatabase(path_), path_);
+  EXPECT_EQ(content(), once);
+}
