@@ -1,15 +1,16 @@
 #include "app_common.h"
 
 #include "core/atomic_file.h"
+#include "pcl_surflet/database_file.h"
 
 #include <pcl/console/print.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
-#include <limits>
 
 #include <unistd.h>
 
@@ -144,6 +145,26 @@ std::string
 stemOf(const std::string& path)
 {
   return std::filesystem::path(path).stem().string();
+}
+
+std::string
+about(const std::string& path, const std::string& message)
+{
+  return message.find(path) == std::string::npos ? path + ": " + message : message;
+}
+
+ModelDatabase
+readDatabase(const std::string& path)
+{
+  try {
+    return loadDatabase(path);
+  }
+  catch (const DatabaseFileError& error) {
+    std::string message = error.what();
+    // pcl::PCLException puts the place in the source before the message.
+    message.erase(0, std::min(message.find("cannot"), message.size()));
+    throw DataError(about(path, message) + "; give a database made by pcl_surflet_train");
+  }
 }
 
 void

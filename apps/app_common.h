@@ -5,6 +5,8 @@
  * else to stderr. */
 #pragma once
 
+#include "pcl_surflet/recognition/model_database.h"
+
 #include <cstdint>
 #include <functional>
 #include <stdexcept>
@@ -124,6 +126,12 @@ std::string stemOf(const std::string& path);
 
 /** \brief Replaces \p path by \p content as a whole. \throws DataError */
 void writeFile(const std::string& path, const std::string& content);
+
+/** \brief Reads a database. \throws DataError that names file, cause and remedy */
+ModelDatabase readDatabase(const std::string& path);
+
+/** \brief \p message, with \p path in front unless it names it already. */
+std::string about(const std::string& path, const std::string& message);
 
 /** \name Options that several programs have
  * \p target holds the default, which the help shows. */

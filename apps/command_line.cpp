@@ -66,7 +66,7 @@ CommandLine::find(const std::string& name)
 bool
 CommandLine::parse(int argc, char** argv)
 {
-  const std::vector<std::string> given(argv + 1, argv + argc);
+  const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
   const auto end_of_options = std::find(given.begin(), given.end(), "--");
   // Whoever asks for help gets it, whatever else is wrong with the line.
   if (std::any_of(given.begin(), end_of_options,

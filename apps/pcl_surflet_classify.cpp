@@ -3,7 +3,6 @@
 #include "app_common.h"
 
 #include "pcl_surflet/core/parallel.h"
-#include "pcl_surflet/database_file.h"
 #include "pcl_surflet/recognition/histogram_classifier.h"
 #include "pcl_surflet/surface_file.h"
 
@@ -114,6 +113,9 @@ answerTo(const Options& o, const HistogramClassifier& classifier, const std::str
     loading.threads = 1; // files are spread over the threads
     const SurfaceFile file = loadSurface(path, loading);
     answer.classification = classifier.classify(surfletsOf(file, kMeshSurflets, o.seed));
+    if (answer.classification.ranking.empty())
+      throw DataError("no pair of its points has a feature; give a cloud of at least two different "
+                      "points");
   }
   catch (const std::exception& error) {
     answer.error = error.what();
@@ -139,8 +141,6 @@ printCsv(const Options& o, const std::string& path, const Classification& c)
   const ModelMatch* best = c.best();
   const std::string begin =
       csvField(path) + "," + csvField(best != nullptr ? best->label : "unknown") + ",";
-  if (c.ranking.empty())
-    std::cout << begin << ",,,,\n";
   for (std::size_t r = 0; r < std::min<std::size_t>(o.top, c.ranking.size()); ++r) {
     const ModelMatch& m = c.ranking[r];
     std::cout << begin << r + 1 << "," << csvField(m.label) << "," << number(m.score) << ","
@@ -153,7 +153,7 @@ bool
 report(const Options& o, const std::string& path, const Answer& answer)
 {
   if (!answer.error.empty()) {
-    complain(std::string(kProgram) + ": " + path + ": " + answer.error);
+    complain(std::string(kProgram) + ": " + about(path, answer.error));
     return false;
   }
   if (o.csv)
@@ -169,7 +169,7 @@ classify(int argc, char** argv)
   Options o;
   if (!readOptions(argc, argv, o))
     return kOk;
-  const ModelDatabase database = loadDatabase(o.database);
+  const ModelDatabase database = readDatabase(o.database);
   const HistogramClassifier classifier = classifierFor(o, database);
   const unsigned threads = resolveThreads(static_cast<unsigned>(o.threads));
   if (o.csv)

@@ -157,8 +157,8 @@ generate(int argc, char** argv)
                    "Makes a test shape of 0.1 to 0.3 m: oriented points as PCD or PLY, a mesh as "
                    "OFF.\nNames: " +
                        names() + ".");
-  line.count("-points", "N", "points, or about as many vertices of a mesh, default 10000", o.points,
-             3, 20000000);
+  line.count("-points", "N", "points, or vertices that a mesh has at least, default 10000",
+             o.points, 3, 20000000);
   line.real("-noise", "S", "moves points along their normals by up to S metres, default 0", o.noise,
             0, 1e6);
   addSeed(line, o.seed);

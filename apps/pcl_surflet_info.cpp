@@ -2,8 +2,6 @@
 
 #include "app_common.h"
 
-#include "pcl_surflet/database_file.h"
-
 #include <algorithm>
 #include <iostream>
 
@@ -76,7 +74,7 @@ info(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1);
-  const ModelDatabase database = loadDatabase(line.files()[0]);
+  const ModelDatabase database = readDatabase(line.files()[0]);
   if (csv)
     printCsv(database);
   else

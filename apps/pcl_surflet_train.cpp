@@ -7,9 +7,13 @@
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 #include "pcl_surflet/surface_file.h"
 
+#include <cerrno>
+#include <cstring>
 #include <filesystem>
 #include <limits>
 #include <map>
+
+#include <unistd.h>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -90,12 +94,23 @@ readOptions(int argc, char** argv, Options& o)
   return true;
 }
 
+/** \brief Training may take long: better to know before it whether the result can be kept. */
+void
+checkDirectory(const std::string& database)
+{
+  const auto directory = std::filesystem::absolute(database).parent_path();
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw DataError("cannot write the database '" + database + "': " + std::strerror(errno) +
+                    "; check its directory and the permissions");
+}
+
 ModelDatabase
 openDatabase(const Options& o)
 {
+  checkDirectory(o.database);
   if (!std::filesystem::exists(std::filesystem::symlink_status(o.database)))
     return {};
-  ModelDatabase database = loadDatabase(o.database);
+  ModelDatabase database = readDatabase(o.database);
   if (database.resolution() != o.resolution)
     throw DataError("the database '" + o.database + "' has the resolution " +
                     database.resolution().toString() + ", not " + o.resolution.toString() +
@@ -161,7 +176,7 @@ train(int argc, char** argv)
     }
     catch (const std::exception& error) {
       progress.clear();
-      complain(std::string(kProgram) + ": " + o.files[i] + ": " + error.what());
+      complain(std::string(kProgram) + ": " + about(o.files[i], error.what()));
       ++failed;
     }
   }
