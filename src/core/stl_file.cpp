@@ -121,7 +121,7 @@ loadStl(const std::string& path)
       data.size() >= kHeaderBytes ? littleEndian32(data.data() + kHeaderBytes - 4) : 0;
   if (data.size() >= kHeaderBytes && data.size() == kHeaderBytes + claimed * kFacetBytes)
     mesh = readBinary(data, claimed);
-  else if (data.compare(0, 5, "solid") == 0)
+  else if (data.compare(0, 5, "solid") == 0 && data.find('\0') == std::string::npos)
     mesh = readText(path, data);
   else
     throw MeshFileError(path + ": not an STL file, or damaged: its header claims " +

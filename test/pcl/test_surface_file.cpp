@@ -223,7 +223,7 @@ TEST_F(SurfaceFiles, OrganisedDepthNeedsNoNormals)
     depth[i] = {(static_cast<float>(i % 40) - 20) / 40, (static_cast<float>(i / 40) - 15) / 40, 2};
   pcl::PCDWriter().writeBinary(path("depth.pcd"), depth);
   const SurfaceFile file = loadSurface(path("depth.pcd"));
-  ASSERT_GT(file.surflets.size(), 300u);
+  ASSERT_GT(file.surflets.size(), 150u) << "all but the borders";
   EXPECT_EQ(file.surflets.size() + file.rejected, 1200u);
   EXPECT_NEAR(file.surflets.nz[100], -1, 1e-4) << "towards the sensor at the origin";
 }
