@@ -104,4 +104,27 @@ surfletsFromDirections(const pcl::PointCloud<pcl::PointNormal>& seen, int neighb
   return out;
 }
 
+ConvertedSurflets
+withEstimatedNormals(const SurfletSet& surflets, double radius, unsigned threads)
+{
+  if (!(radius > 0))
+    throw std::invalid_argument("pcl_surflet: the radius of normals must be positive");
+  Points points;
+  for (std::size_t i = 0; i < surflets.size(); ++i)
+    points.push_back({surflets.x[i], surflets.y[i], surflets.z[i]});
+  Normals normals;
+  if (!points.empty()) {
+    pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(threads);
+    estimation.setInputCloud(shared(points));
+    estimation.setRadiusSearch(radius);
+    estimation.compute(normals);
+  }
+  for (std::size_t i = 0; i < normals.size(); ++i) {
+    auto n = normals[i].getNormalVector3fMap();
+    if (n.dot(Eigen::Vector3f(surflets.nx[i], surflets.ny[i], surflets.nz[i])) < 0)
+      n = -n;
+  }
+  return toSurflets(points, normals, allIndices(points.size()));
+}
+
 } // namespace pcl_surflet

@@ -25,9 +25,11 @@ public:
       if (run.run_type != Run::RT_Iteration || run.error_occurred)
         continue;
       const auto items = run.counters.find("items_per_second");
-      const double seconds = items != run.counters.end()
-                                 ? 1 / items->second.value
-                                 : run.cpu_accumulated_time / static_cast<double>(run.iterations);
+      const double seconds =
+          items != run.counters.end()
+              ? 1 / items->second.value
+              : (usesRealTime(run) ? run.real_accumulated_time : run.cpu_accumulated_time) /
+                    static_cast<double>(run.iterations);
       auto name = run.run_name.function_name;
       if (!run.run_name.args.empty())
         name += "/" + run.run_name.args;
@@ -40,7 +42,7 @@ public:
   void
   Finalize() override
   {
-    std::printf("\n%-58s %12s %10s\n", "benchmark (median of repetitions, CPU time per item)", "ns",
+    std::printf("\n%-58s %12s %10s\n", "benchmark (median of repetitions, time per item)", "ns",
                 "peer/this");
     for (const auto& name : order_) {
       const double peer = peerOf(name);
@@ -53,6 +55,12 @@ public:
   }
 
 private:
+  static bool
+  usesRealTime(const Run& run)
+  {
+    return run.run_name.time_type.find("real_time") != std::string::npos;
+  }
+
   double
   median(const std::string& name) const
   {

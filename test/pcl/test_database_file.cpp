@@ -177,7 +177,7 @@ TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
   expectHas(errorWith("role", std::uint32_t{7}), "role");
   expectHas(errorWith("member", std::uint32_t{5}, 2), "member");
   expectHas(errorWith("resolution", std::uint32_t{4000000000u}), "resolution");
-  expectHas(errorWith("resolution", std::uint32_t{7}), "bins");
+  expectHas(errorWith("resolution", std::uint32_t{7}, 0), "bins");
   for (const auto* field : {"delta_max", "r_mean", "r_max", "r_min", "surface_area"}) {
     expectHas(errorWith(field, nan, 0), "not finite");
     expectHas(errorWith(field, -1.0, 0), "negative");

@@ -1,0 +1,32 @@
+/** \file
+ * What happens to surfaces on their way through a sensor: motion, scale, noise, missing parts.
+ * For experiments and for training under conditions. */
+#pragma once
+
+#include "pcl_surflet/core/surflet_set.h"
+#include "pcl_surflet/core/triangle_mesh.h"
+
+#include <cstdint>
+
+namespace pcl_surflet {
+
+/** \brief The set turned by a random rotation (uniform over all orientations) about the origin. */
+PCL_SURFLET_API SurfletSet randomlyRotated(const SurfletSet& set, std::uint64_t seed);
+
+/** \brief The set with every position moved along its normal by a random distance, uniform in
+ * [-amplitude, amplitude] [Wahl 2007, Sec. 3.6.5]. Normals stay: a sensor would have to estimate
+ * them anew. */
+PCL_SURFLET_API SurfletSet displacedAlongNormals(const SurfletSet& set, double amplitude,
+                                                 std::uint64_t seed);
+
+/** \brief The share \p visible (in (0, 1]) of the surflets that lies on one side of a random plane
+ * [Wahl 2007, Sec. 3.6.6]: of a set of even density, that share of the area. At least one surflet
+ * remains of a set that is not empty. */
+PCL_SURFLET_API SurfletSet cutByRandomPlane(const SurfletSet& set, double visible,
+                                            std::uint64_t seed);
+
+/** \brief The mesh scaled so that its farthest vertices are \p diameter apart.
+ * \throws std::invalid_argument if the vertices have no extent */
+PCL_SURFLET_API TriangleMesh scaledToDiameter(const TriangleMesh& mesh, double diameter);
+
+} // namespace pcl_surflet
