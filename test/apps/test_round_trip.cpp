@@ -175,6 +175,11 @@ TEST_F(RoundTrip, SameSeedSameBytesWhateverTheThreads)
   const AppRun other = run("classify", {"-database", path("db0.pcd"), "-csv", "-seed", "7",
                                         path("ball.pcd"), path("die.ply"), path("cup.off")});
   EXPECT_NE(other.out, answers[0]) << "the seed is used";
+  // Of points everything is used: only the draw of the pairs can differ.
+  const auto drawn = [&](const std::string& seed) {
+    return run("classify", {"-database", path("db0.pcd"), "-seed", seed, path("die.ply")}).out;
+  };
+  EXPECT_NE(drawn("6"), drawn("7"));
 }
 
 TEST_F(RoundTrip, FeaturesAndTopAreUsed)

@@ -296,7 +296,7 @@ TEST_F(SurfaceFiles, WhatIsNoFileIsRefusedWithoutWaiting)
 TEST_F(SurfaceFiles, AbsurdCountsAllocateNothing)
 {
   for (const std::string data : {"ascii", "binary", "binary_compressed"})
-    expectRefused("big.pcd", pcdHeader("4000000000", data) + "0 0 0 0 0 1\n", "");
+    expectRefused("big.pcd", pcdHeader("4000000000", data) + "0 0 0 0 0 1\n", "header is wrong");
   const std::string vertices = "element vertex 4000000000\n" + kPlyPoint;
   expectRefused("big.ply", plyHeader("ascii", vertices) + "1 2 3\n", "after 1 of the 4000000000");
   expectRefused("big.ply", plyHeader("binary_little_endian", vertices) + std::string(24, '\0'),
