@@ -192,6 +192,8 @@ pcdProblem(const std::string& path)
     return "it does not exist";
   if (std::filesystem::is_directory(status))
     return "it is a directory";
+  if (!std::filesystem::is_regular_file(status)) // opening a pipe would wait for ever
+    return "it is no regular file";
   std::ifstream in(path, std::ios::binary);
   if (!in)
     return "it cannot be read";

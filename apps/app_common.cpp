@@ -1,0 +1,179 @@
+#include "app_common.h"
+
+#include "core/atomic_file.h"
+#include "pcl_surflet/database_file.h"
+
+#include <pcl/console/print.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include <unistd.h>
+
+namespace pcl_surflet {
+namespace apps {
+namespace {
+
+template <typename Number>
+Number
+parseNumber(const std::string& option, const std::string& text, const char* kind, Number low,
+            Number high)
+{
+  Number value{};
+  const auto* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, value);
+  const bool is_number = result.ec != std::errc::invalid_argument && result.ptr == end;
+  const bool negative = std::is_unsigned_v<Number> && !text.empty() && text[0] == '-';
+  if (!is_number && !negative)
+    throw UsageError("option " + option + ": '" + text + "' is not " + kind);
+  if (negative || result.ec != std::errc{} || !(value >= low && value <= high)) {
+    const auto shown = [](Number v) {
+      return std::is_integral_v<Number> ? std::to_string(v) : number(static_cast<double>(v));
+    };
+    throw UsageError("option " + option + ": " + text + " is outside the range " + shown(low) +
+                     " to " + shown(high));
+  }
+  return value;
+}
+
+} // namespace
+
+std::uint64_t
+parseCount(const std::string& option, const std::string& text, std::uint64_t low,
+           std::uint64_t high)
+{
+  return parseNumber<std::uint64_t>(option, text, "a whole number", low, high);
+}
+
+double
+parseReal(const std::string& option, const std::string& text, double low, double high)
+{
+  return parseNumber<double>(option, text, "a number", low, high);
+}
+
+int
+runMain(const std::string& program, const std::function<int()>& body)
+{
+  // What PCL would say is said again, with the file's name, by our own messages.
+  pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS);
+  int code = kBadData;
+  try {
+    code = body();
+  }
+  catch (const UsageError& error) {
+    complain(program + ": " + error.what() + "; see " + program + " -h");
+    code = kWrongUsage;
+  }
+  catch (const std::bad_alloc&) {
+    complain(program + ": not enough memory; give smaller files or fewer threads");
+  }
+  catch (const std::exception& error) {
+    complain(program + ": " + error.what());
+  }
+  catch (...) {
+    complain(program + ": unknown error");
+  }
+  std::cout.flush();
+  if (!std::cout || std::fflush(stdout) != 0) {
+    complain(program + ": cannot write to standard output; is the disk full?");
+    return kBadData;
+  }
+  return code;
+}
+
+void
+note(const std::string& text)
+{
+  pcl::console::print_highlight(stderr, "%s\n", text.c_str());
+}
+
+void
+complain(const std::string& text)
+{
+  pcl::console::print_color(stderr, pcl::console::TT_BRIGHT, pcl::console::TT_RED, "%s\n",
+                            text.c_str());
+}
+
+Progress::Progress(std::size_t total) : total_(total), on_(total > 1 && ::isatty(STDERR_FILENO)) {}
+
+Progress::~Progress() { clear(); }
+
+void
+Progress::show(std::size_t done, const std::string& item)
+{
+  constexpr std::size_t kWidth = 30, kNameWidth = 30;
+  if (!on_)
+    return;
+  const std::size_t filled = kWidth * done / total_;
+  std::fprintf(stderr, "\r[%s%s] %zu/%zu %s\033[K", std::string(filled, '#').c_str(),
+               std::string(kWidth - filled, ' ').c_str(), done, total_,
+               stemOf(item).substr(0, kNameWidth).c_str());
+}
+
+void
+Progress::clear()
+{
+  if (on_)
+    std::fputs("\r\033[K", stderr);
+}
+
+std::string
+csvField(const std::string& text)
+{
+  if (text.find_first_of(",\"\r\n") == std::string::npos)
+    return text;
+  std::string out = "\"";
+  for (const char c : text)
+    out.append(c == '"' ? 2 : 1, c);
+  return out + '"';
+}
+
+std::string
+number(double value)
+{
+  char digits[32];
+  const auto end =
+      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6).ptr;
+  return std::string(digits, end);
+}
+
+std::string
+stemOf(const std::string& path)
+{
+  return std::filesystem::path(path).stem().string();
+}
+
+std::string
+about(const std::string& path, const std::string& message)
+{
+  return message.find(path) == std::string::npos ? path + ": " + message : message;
+}
+
+ModelDatabase
+readDatabase(const std::string& path)
+{
+  try {
+    return loadDatabase(path);
+  }
+  catch (const DatabaseFileError& error) {
+    std::string message = error.what();
+    // pcl::PCLException puts the place in the source before the message.
+    message.erase(0, std::min(message.find("cannot"), message.size()));
+    throw DataError(about(path, message) + "; give a database made by pcl_surflet_train");
+  }
+}
+
+void
+writeFile(const std::string& path, const std::string& content)
+{
+  if (const auto problem = detail::replaceFile(path, content); !problem.empty())
+    throw DataError("cannot write '" + path + "': " + problem +
+                    "; check the directory, its permissions and the free space");
+}
+
+} // namespace apps
+} // namespace pcl_surflet

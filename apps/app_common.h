@@ -1,0 +1,145 @@
+/** \file
+ * What the pcl_surflet_* programs share: options in PCL's single-dash style, exit codes, messages.
+ *
+ * Exit codes: 0 all went well, 1 wrong usage, 2 bad data or I/O. Results go to stdout, everything
+ * else to stderr. */
+#pragma once
+
+#include "pcl_surflet/recognition/model_database.h"
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+namespace apps {
+
+constexpr int kOk = 0, kWrongUsage = 1, kBadData = 2;
+
+/** \brief The command line is wrong; what() names the option. Exit code 1. */
+class UsageError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief A file cannot be used or written; what() names file, cause and remedy. Exit code 2. */
+class DataError : public std::runtime_error {
+public:
+  using std::runtime_error::runtime_error;
+};
+
+/** \brief Reads \p text as a whole number in [\p low, \p high].
+ * \throws UsageError naming \p option */
+std::uint64_t parseCount(const std::string& option, const std::string& text, std::uint64_t low,
+                         std::uint64_t high);
+
+/** \brief Reads \p text as a finite number in [\p low, \p high]. \throws UsageError naming
+ * \p option */
+double parseReal(const std::string& option, const std::string& text, double low, double high);
+
+/** \brief The command line of one program: options with one dash, then files, in any order. */
+class CommandLine {
+public:
+  /** \param arguments the positional ones for the first line of the help, e.g. "FILE..." */
+  CommandLine(std::string program, std::string arguments, std::string description);
+
+  void flag(const std::string& name, const std::string& help, bool& target);
+  void text(const std::string& name, const std::string& value, const std::string& help,
+            std::string& target);
+  void count(const std::string& name, const std::string& value, const std::string& help,
+             std::uint64_t& target, std::uint64_t low, std::uint64_t high);
+  void real(const std::string& name, const std::string& value, const std::string& help,
+            double& target, double low, double high);
+  /** \brief An option whose value \p take understands; it may throw UsageError. */
+  void option(const std::string& name, const std::string& value, const std::string& help,
+              std::function<void(const std::string&)> take);
+
+  /** \brief Takes in the command line. After "--" everything is a file.
+   * \return false if help was asked for and has been printed. \throws UsageError */
+  bool parse(int argc, char** argv);
+
+  const std::vector<std::string>&
+  files() const
+  {
+    return files_;
+  }
+  /** \brief Was option \p name given? */
+  bool given(const std::string& name) const;
+  /** \throws UsageError if the option \p name was not given */
+  void require(const std::string& name) const;
+  /** \throws UsageError unless the number of files is in [\p fewest, \p most] */
+  void requireFiles(std::size_t fewest, std::size_t most) const;
+
+  std::string help() const;
+
+private:
+  struct Option {
+    std::string name, value, help;
+    std::function<void(const std::string&)> take;
+    bool given = false;
+  };
+
+  Option* find(const std::string& name);
+
+  std::string program_, arguments_, description_;
+  std::vector<Option> options_;
+  std::vector<std::string> files_;
+};
+
+/** \brief Runs \p body and turns what it throws into a message and an exit code. Also fails if
+ * stdout could not be written. */
+int runMain(const std::string& program, const std::function<int()>& body);
+
+/** \brief A message about what was done, on stderr. */
+void note(const std::string& text);
+/** \brief A message about what went wrong, on stderr. */
+void complain(const std::string& text);
+
+/** \brief Shows how far a batch has come, if stderr is a terminal and there is more than one item.
+ */
+class Progress {
+public:
+  explicit Progress(std::size_t total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void show(std::size_t done, const std::string& item);
+  /** \brief Clears the line, so that a message can be written. */
+  void clear();
+
+private:
+  std::size_t total_;
+  bool on_;
+};
+
+/** \brief \p text as a field of a CSV file: quoted if need be. */
+std::string csvField(const std::string& text);
+
+/** \brief \p value with six significant digits, as text that every locale reads alike. */
+std::string number(double value);
+
+/** \brief File name without directory and ending. */
+std::string stemOf(const std::string& path);
+
+/** \brief Replaces \p path by \p content as a whole. \throws DataError */
+void writeFile(const std::string& path, const std::string& content);
+
+/** \brief Reads a database. \throws DataError that names file, cause and remedy */
+ModelDatabase readDatabase(const std::string& path);
+
+/** \brief \p message, with \p path in front unless it names it already. */
+std::string about(const std::string& path, const std::string& message);
+
+/** \name Options that several programs have
+ * \p target holds the default, which the help shows. */
+///@{
+void addSeed(CommandLine& line, std::uint64_t& target);
+void addThreads(CommandLine& line, std::uint64_t& target);
+void addNeighbours(CommandLine& line, std::uint64_t& target);
+///@}
+
+} // namespace apps
+} // namespace pcl_surflet

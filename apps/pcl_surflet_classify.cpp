@@ -1,0 +1,204 @@
+// Says which models of a database files look like.
+
+#include "app_common.h"
+
+#include "pcl_surflet/core/parallel.h"
+#include "pcl_surflet/recognition/histogram_classifier.h"
+#include "pcl_surflet/surface_file.h"
+
+#include <algorithm>
+#include <iostream>
+#include <limits>
+
+using namespace pcl_surflet;
+using namespace pcl_surflet::apps;
+
+namespace {
+
+constexpr const char* kProgram = "pcl_surflet_classify";
+
+/** Surflets drawn from a mesh to make a query of it. */
+constexpr std::size_t kMeshSurflets = 4500;
+
+struct Options {
+  std::string database;
+  Criterion criterion = Criterion::Likelihood;
+  std::uint64_t features = 0, top = 3, seed = 1, threads = 0, neighbours = 0;
+  double unknown = 0;
+  bool has_unknown = false, scale_normalized = false, csv = false;
+  std::vector<std::string> files;
+};
+
+/** \brief What became of one file. */
+struct Answer {
+  Classification classification;
+  std::string error; ///< empty if it could be classified
+};
+
+std::string
+criterionNames()
+{
+  std::string names;
+  for (const auto criterion : allCriteria())
+    names += (names.empty() ? "" : ", ") + std::string(criterionName(criterion));
+  return names;
+}
+
+void
+addOptions(CommandLine& line, Options& o)
+{
+  constexpr double kLargest = std::numeric_limits<double>::max();
+  line.text("-database", "DB.pcd", "the database (required)", o.database);
+  line.option("-criterion", "NAME", criterionNames() + "; default likelihood",
+              [&o](const std::string& name) {
+                const auto criterion = criterionByName(name);
+                if (!criterion)
+                  throw UsageError("option -criterion: '" + name + "' is none of " +
+                                   criterionNames());
+                o.criterion = *criterion;
+              });
+  line.count("-features", "N", "pairs drawn per query, default 2000 or twice the number of bins",
+             o.features, 1, 1000000000);
+  line.count("-top", "N", "models listed per file, default 3", o.top, 1, 1000000);
+  line.real("-unknown", "T",
+            "worst accepted value: surprise in nats (likelihood) or score; default none", o.unknown,
+            -kLargest, kLargest);
+  line.flag("-scale_normalized", "compare shapes regardless of size", o.scale_normalized);
+  addSeed(line, o.seed);
+  addThreads(line, o.threads);
+  addNeighbours(line, o.neighbours);
+  line.flag("-csv",
+            "print a table with the columns file,answer,rank,label,score,posterior,surprise",
+            o.csv);
+}
+
+/** \return false if help was asked for */
+bool
+readOptions(int argc, char** argv, Options& o)
+{
+  CommandLine line(kProgram, "FILE...",
+                   "Classifies files (PCD, PLY, OBJ, STL, OFF) against the models of a database "
+                   "and lists\nthe best ones with score, posterior probability and surprise; the "
+                   "answer is 'unknown'\nwhere no model is similar enough (see -unknown).");
+  addOptions(line, o);
+  if (!line.parse(argc, argv))
+    return false;
+  line.require("-database");
+  line.requireFiles(1, std::numeric_limits<std::size_t>::max());
+  o.has_unknown = line.given("-unknown");
+  o.files = line.files();
+  return true;
+}
+
+HistogramClassifier
+classifierFor(const Options& o, const ModelDatabase& database)
+{
+  HistogramClassifier classifier(database);
+  classifier.setCriterion(o.criterion);
+  classifier.setNumberOfFeatures(o.features);
+  classifier.setSeed(o.seed);
+  classifier.setScaleNormalized(o.scale_normalized);
+  if (o.has_unknown)
+    classifier.setUnknownThreshold(o.unknown);
+  return classifier;
+}
+
+Answer
+answerTo(const Options& o, const HistogramClassifier& classifier, const std::string& path)
+{
+  Answer answer;
+  try {
+    SurfaceFileOptions loading;
+    loading.estimate_normals = static_cast<int>(o.neighbours);
+    loading.threads = 1; // files are spread over the threads
+    const SurfaceFile file = loadSurface(path, loading);
+    answer.classification = classifier.classify(surfletsOf(file, kMeshSurflets, o.seed));
+    if (answer.classification.ranking.empty())
+      throw DataError("no pair of its points has a feature; give a cloud of at least two different "
+                      "points");
+  }
+  catch (const std::exception& error) {
+    answer.error = error.what();
+  }
+  return answer;
+}
+
+void
+printText(const Options& o, const std::string& path, const Classification& c)
+{
+  const ModelMatch* best = c.best();
+  std::cout << path << ": " << (best != nullptr ? best->label : "unknown") << "\n";
+  for (std::size_t r = 0; r < std::min<std::size_t>(o.top, c.ranking.size()); ++r) {
+    const ModelMatch& m = c.ranking[r];
+    std::cout << "  " << r + 1 << " " << m.label << "  score " << number(m.score) << "  posterior "
+              << number(m.posterior) << "  surprise " << number(m.surprise) << "\n";
+  }
+}
+
+void
+printCsv(const Options& o, const std::string& path, const Classification& c)
+{
+  const ModelMatch* best = c.best();
+  const std::string begin =
+      csvField(path) + "," + csvField(best != nullptr ? best->label : "unknown") + ",";
+  for (std::size_t r = 0; r < std::min<std::size_t>(o.top, c.ranking.size()); ++r) {
+    const ModelMatch& m = c.ranking[r];
+    std::cout << begin << r + 1 << "," << csvField(m.label) << "," << number(m.score) << ","
+              << number(m.posterior) << "," << number(m.surprise) << "\n";
+  }
+}
+
+/** \brief Prints one answer. \return false if there was none */
+bool
+report(const Options& o, const std::string& path, const Answer& answer)
+{
+  if (!answer.error.empty()) {
+    complain(std::string(kProgram) + ": " + about(path, answer.error));
+    return false;
+  }
+  if (o.csv)
+    printCsv(o, path, answer.classification);
+  else
+    printText(o, path, answer.classification);
+  return true;
+}
+
+int
+classify(int argc, char** argv)
+{
+  Options o;
+  if (!readOptions(argc, argv, o))
+    return kOk;
+  const ModelDatabase database = readDatabase(o.database);
+  const HistogramClassifier classifier = classifierFor(o, database);
+  const unsigned threads = resolveThreads(static_cast<unsigned>(o.threads));
+  if (o.csv)
+    std::cout << "file,answer,rank,label,score,posterior,surprise\n";
+  Progress progress(o.files.size());
+  std::size_t failed = 0;
+  // A few files at a time: answers come in order and soon, and memory stays bounded.
+  const std::size_t chunk = 4 * std::size_t{threads};
+  for (std::size_t first = 0; first < o.files.size(); first += chunk) {
+    progress.show(first, o.files[first]);
+    std::vector<Answer> answers(std::min(chunk, o.files.size() - first));
+    parallelFor(answers.size(), threads, [&](std::size_t i, unsigned) {
+      answers[i] = answerTo(o, classifier, o.files[first + i]);
+    });
+    progress.clear();
+    for (std::size_t i = 0; i < answers.size(); ++i)
+      failed += !report(o, o.files[first + i], answers[i]);
+    std::cout.flush();
+  }
+  if (failed > 0)
+    complain(std::string(kProgram) + ": " + std::to_string(failed) + " of " +
+             std::to_string(o.files.size()) + " files could not be classified");
+  return failed > 0 ? kBadData : kOk;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return runMain(kProgram, [&] { return classify(argc, argv); });
+}

@@ -1,0 +1,198 @@
+// Trains models from files and keeps them in a database.
+
+#include "app_common.h"
+
+#include "pcl_surflet/core/geometry.h"
+#include "pcl_surflet/database_file.h"
+#include "pcl_surflet/recognition/histogram_model_trainer.h"
+#include "pcl_surflet/surface_file.h"
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <map>
+
+#include <unistd.h>
+
+using namespace pcl_surflet;
+using namespace pcl_surflet::apps;
+
+namespace {
+
+constexpr const char* kProgram = "pcl_surflet_train";
+
+struct Options {
+  std::string database, label;
+  bool background = false;
+  Resolution resolution;
+  std::uint64_t pairs = 10000000, seed = 1, threads = 0, neighbours = 0;
+  std::vector<std::string> files;
+};
+
+Resolution
+parseResolution(const std::string& text)
+{
+  constexpr const char* kName = "-bins";
+  std::vector<int> bins;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    bins.push_back(static_cast<int>(
+        parseCount(kName, text.substr(begin, end - begin), 1, Resolution::kMaxPerDimension)));
+    begin = end + 1;
+  }
+  if (bins.size() != 4)
+    throw UsageError("option -bins: '" + text + "' is not four numbers, as in 5,5,5,5");
+  const Resolution resolution{bins[0], bins[1], bins[2], bins[3]};
+  if (const auto problem = resolution.problem(); !problem.empty())
+    throw UsageError("option -bins: " + problem);
+  return resolution;
+}
+
+/** \brief Every file must give a model of its own. */
+void
+checkLabels(const Options& o)
+{
+  if (!o.label.empty() && o.files.size() > 1)
+    throw UsageError("option -label names one model, but " + std::to_string(o.files.size()) +
+                     " files are given; train them one by one");
+  if (o.label.size() > HistogramModel::kMaxLabelBytes)
+    throw UsageError("option -label: longer than 63 bytes");
+  std::map<std::string, std::string> seen;
+  for (const auto& file : o.files)
+    if (const auto [at, is_new] = seen.try_emplace(stemOf(file), file); !is_new)
+      throw UsageError("'" + at->second + "' and '" + file + "' would both be labelled '" +
+                       at->first + "'; train them one by one with option -label");
+}
+
+/** \return false if help was asked for */
+bool
+readOptions(int argc, char** argv, Options& o)
+{
+  CommandLine line(kProgram, "FILE...",
+                   "Trains one model per file (PCD, PLY, OBJ, STL, OFF), labelled with the file's "
+                   "name\nwithout ending, and adds them to a database or replaces those of the "
+                   "same label.\nClouds need normals (see -k); clouds of uneven density are evened "
+                   "out.");
+  line.text("-database", "DB.pcd", "the database; made if it does not exist (required)",
+            o.database);
+  line.text("-label", "NAME", "label of the model, for a single file", o.label);
+  line.flag("-background", "the models are background, to be told from objects", o.background);
+  line.option("-bins", "A,B,C,D", "bins of alpha, beta, gamma, delta, default 5,5,5,5",
+              [&o](const std::string& text) { o.resolution = parseResolution(text); });
+  line.count("-pairs", "N", "pairs drawn from a cloud, default 10000000 (meshes: all pairs)",
+             o.pairs, 1, 1000000000000ULL);
+  addSeed(line, o.seed);
+  addThreads(line, o.threads);
+  addNeighbours(line, o.neighbours);
+  if (!line.parse(argc, argv))
+    return false;
+  line.require("-database");
+  line.requireFiles(1, std::numeric_limits<std::size_t>::max());
+  o.files = line.files();
+  checkLabels(o);
+  return true;
+}
+
+/** \brief Training may take long: better to know before it whether the result can be kept. */
+void
+checkDirectory(const std::string& database)
+{
+  const auto directory = std::filesystem::absolute(database).parent_path();
+  if (::access(directory.c_str(), W_OK) != 0)
+    throw DataError("cannot write the database '" + database + "': " + std::strerror(errno) +
+                    "; check its directory and the permissions");
+}
+
+ModelDatabase
+openDatabase(const Options& o)
+{
+  checkDirectory(o.database);
+  if (!std::filesystem::exists(std::filesystem::symlink_status(o.database)))
+    return {};
+  ModelDatabase database = readDatabase(o.database);
+  if (database.resolution() != o.resolution)
+    throw DataError("the database '" + o.database + "' has the resolution " +
+                    database.resolution().toString() + ", not " + o.resolution.toString() +
+                    "; give -bins " + database.resolution().toString() + " or another database");
+  return database;
+}
+
+HistogramModelTrainer
+trainerFor(const Options& o)
+{
+  HistogramModelTrainer trainer;
+  trainer.setResolution(o.resolution);
+  trainer.setNumberOfPairs(o.pairs);
+  trainer.setSeed(o.seed);
+  trainer.setNumberOfThreads(static_cast<unsigned>(o.threads));
+  trainer.setRole(o.background ? ModelRole::Background : ModelRole::Object);
+  return trainer;
+}
+
+/** \brief Says what of the file was not used as it is. */
+void
+noteLosses(const std::string& path, const SurfaceFile& file)
+{
+  if (file.rejected > 0)
+    note(path + ": " + std::to_string(file.rejected) +
+         " points left out (not finite or without usable normal)");
+  if (!file.mesh && surfaceDensity(file.surflets).contrast >= kUnevenContrast)
+    note(path + ": uneven density evened out, one mean surflet per cell");
+}
+
+void
+trainFile(const Options& o, const HistogramModelTrainer& trainer, const std::string& path,
+          ModelDatabase& database)
+{
+  SurfaceFileOptions loading;
+  loading.estimate_normals = static_cast<int>(o.neighbours);
+  loading.threads = static_cast<unsigned>(o.threads);
+  const SurfaceFile file = loadSurface(path, loading);
+  const std::string label = o.label.empty() ? stemOf(path) : o.label;
+  HistogramModel model =
+      file.mesh ? trainer.train(label, *file.mesh) : trainer.train(label, file.surflets);
+  noteLosses(path, file);
+  const std::uint64_t features = model.members.front().features;
+  const bool replaced = database.replace(std::move(model));
+  note(std::string(replaced ? "replaced" : "added") + " '" + label + "' (" +
+       (o.background ? "background" : "object") + ", " + std::to_string(features) + " features)");
+}
+
+int
+train(int argc, char** argv)
+{
+  Options o;
+  if (!readOptions(argc, argv, o))
+    return kOk;
+  ModelDatabase database = openDatabase(o);
+  const HistogramModelTrainer trainer = trainerFor(o);
+  Progress progress(o.files.size());
+  std::size_t failed = 0;
+  for (std::size_t i = 0; i < o.files.size(); ++i) {
+    progress.show(i, o.files[i]);
+    try {
+      trainFile(o, trainer, o.files[i], database);
+    }
+    catch (const std::exception& error) {
+      progress.clear();
+      complain(std::string(kProgram) + ": " + about(o.files[i], error.what()));
+      ++failed;
+    }
+  }
+  progress.clear();
+  if (failed < o.files.size())
+    saveDatabase(database, o.database);
+  if (failed > 0)
+    complain(std::string(kProgram) + ": " + std::to_string(failed) + " of " +
+             std::to_string(o.files.size()) + " files could not be trained");
+  return failed > 0 ? kBadData : kOk;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return runMain(kProgram, [&] { return train(argc, argv); });
+}

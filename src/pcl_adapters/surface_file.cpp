@@ -1,0 +1,245 @@
+#include "pcl_surflet/surface_file.h"
+
+#include "core/file_content.h"
+#include "core/mesh_readers.h"
+#include "pcl_adapters/pcd_guard.h"
+#include "pcl_surflet/core/mesh_file.h"
+#include "pcl_surflet/sensed_surface.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+
+namespace pcl_surflet {
+namespace {
+
+using Columns = std::array<const pcl::PCLPointField*, 3>;
+
+[[noreturn]] void
+refuse(const std::string& path, const std::string& cause, const std::string& remedy)
+{
+  throw SurfaceFileError("cannot use '" + path + "': " + cause + "; " + remedy);
+}
+
+[[noreturn]] void
+refuseWithoutNormals(const std::string& path)
+{
+  refuse(path, "its points have no normals (normal_x, normal_y, normal_z)",
+         "add them, or have them estimated from k neighbours (option -k of the apps)");
+}
+
+/** \brief What is left of a cloud must be something. */
+SurfaceFile
+ofPoints(const std::string& path, ConvertedSurflets converted)
+{
+  if (converted.surflets.empty())
+    refuse(path,
+           "none of its " + std::to_string(converted.rejected) +
+               " points is finite and has a usable normal",
+           "check the coordinates and normals");
+  SurfaceFile file;
+  file.surflets = std::move(converted.surflets);
+  file.rejected = converted.rejected;
+  return file;
+}
+
+SurfaceFile
+ofMesh(const std::string& path, TriangleMesh mesh)
+{
+  if (const auto problem = mesh.problem(); !problem.empty())
+    refuse(path, problem, "mend the mesh or export it again");
+  SurfaceFile file;
+  file.mesh = std::move(mesh);
+  return file;
+}
+
+/** \brief The fields \p names if all are single floating-point numbers within a point, else null
+ * pointers. */
+Columns
+columns(const pcl::PCLPointCloud2& cloud, const std::array<const char*, 3>& names)
+{
+  Columns found{};
+  for (std::size_t k = 0; k < names.size(); ++k)
+    for (const auto& field : cloud.fields) {
+      const bool is_float = field.datatype == pcl::PCLPointField::FLOAT32;
+      const bool is_double = field.datatype == pcl::PCLPointField::FLOAT64;
+      const std::size_t size = is_float ? sizeof(float) : sizeof(double);
+      if (field.name == names[k] && (is_float || is_double) && field.count == 1 &&
+          field.offset + size <= cloud.point_step)
+        found[k] = &field;
+    }
+  const bool complete = found[0] != nullptr && found[1] != nullptr && found[2] != nullptr;
+  return complete ? found : Columns{};
+}
+
+float
+valueAt(const pcl::PCLPointCloud2& cloud, std::size_t point, const pcl::PCLPointField& field)
+{
+  const auto* from = cloud.data.data() + point * cloud.point_step + field.offset;
+  if (field.datatype == pcl::PCLPointField::FLOAT32) {
+    float value;
+    std::memcpy(&value, from, sizeof value);
+    return value;
+  }
+  double value;
+  std::memcpy(&value, from, sizeof value);
+  return static_cast<float>(value);
+}
+
+struct RawCloud {
+  pcl::PCLPointCloud2 cloud;
+  Eigen::Vector3f sensor;
+
+  std::size_t
+  size() const
+  {
+    return std::size_t{cloud.width} * cloud.height;
+  }
+};
+
+RawCloud
+readPcd(const std::string& path)
+{
+  constexpr const char* kRemedy = "export it again as PCD";
+  detail::checkedFileSize(path);
+  if (const auto problem = detail::pcdProblem(path); !problem.empty())
+    refuse(path, problem, kRemedy);
+  RawCloud raw;
+  Eigen::Vector4f origin = Eigen::Vector4f::Zero();
+  Eigen::Quaternionf orientation;
+  int version = 0;
+  bool read = false;
+  try {
+    read = pcl::PCDReader().read(path, raw.cloud, origin, orientation, version) >= 0;
+  }
+  catch (const std::exception&) { // PCL reports some damage by exceptions of several kinds
+  }
+  if (!read || raw.cloud.point_step == 0 ||
+      raw.cloud.data.size() / raw.cloud.point_step < raw.size())
+    refuse(path, "its data is damaged", kRemedy);
+  if (raw.size() == 0)
+    refuse(path, "it has no points", kRemedy);
+  raw.sensor = origin.head<3>();
+  return raw;
+}
+
+pcl::PointCloud<pcl::PointXYZ>
+coordinates(const RawCloud& raw, const Columns& xyz)
+{
+  pcl::PointCloud<pcl::PointXYZ> out(raw.cloud.width, raw.cloud.height);
+  out.is_dense = false; // PCL then looks for itself, whatever the file says
+  for (std::size_t i = 0; i < out.size(); ++i)
+    out[i] = {valueAt(raw.cloud, i, *xyz[0]), valueAt(raw.cloud, i, *xyz[1]),
+              valueAt(raw.cloud, i, *xyz[2])};
+  return out;
+}
+
+/** \brief A depth image has its normals from its neighbourhood; points need to be told of how many.
+ */
+SurfaceFile
+withEstimatedNormals(const std::string& path, const pcl::PointCloud<pcl::PointXYZ>& points,
+                     const Eigen::Vector3f& sensor, const SurfaceFileOptions& options)
+{
+  if (options.estimate_normals > 0)
+    return ofPoints(path,
+                    surfletsFromPoints(points, sensor, options.estimate_normals, options.threads));
+  if (points.width >= 3 && points.height >= 3)
+    return ofPoints(path, surfletsFromDepth(points, sensor));
+  refuseWithoutNormals(path);
+}
+
+SurfaceFile
+loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
+{
+  const RawCloud raw = readPcd(path);
+  const Columns xyz = columns(raw.cloud, {"x", "y", "z"});
+  if (xyz[0] == nullptr)
+    refuse(path, "it has no fields x, y, z of type F", "give a cloud of points");
+  const Columns n = columns(raw.cloud, {"normal_x", "normal_y", "normal_z"});
+  if (n[0] == nullptr)
+    return withEstimatedNormals(path, coordinates(raw, xyz), raw.sensor, options);
+  ConvertedSurflets converted;
+  for (std::size_t i = 0; i < raw.size(); ++i)
+    converted.rejected += !converted.surflets.appendChecked(
+        {valueAt(raw.cloud, i, *xyz[0]), valueAt(raw.cloud, i, *xyz[1]),
+         valueAt(raw.cloud, i, *xyz[2]), valueAt(raw.cloud, i, *n[0]), valueAt(raw.cloud, i, *n[1]),
+         valueAt(raw.cloud, i, *n[2])});
+  return ofPoints(path, std::move(converted));
+}
+
+SurfaceFile
+loadPlySurface(const std::string& path, const SurfaceFileOptions& options)
+{
+  detail::PlyContent content = detail::loadPly(path);
+  if (!content.mesh.triangles.empty())
+    return ofMesh(path, std::move(content.mesh));
+  const auto& vertices = content.mesh.vertices;
+  if (content.normals.empty()) {
+    pcl::PointCloud<pcl::PointXYZ> points;
+    points.is_dense = false;
+    for (const auto& p : vertices)
+      points.push_back({p[0], p[1], p[2]});
+    points.is_dense = false;
+    return withEstimatedNormals(path, points, Eigen::Vector3f::Zero(), options);
+  }
+  ConvertedSurflets converted;
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const auto& p = vertices[i];
+    const auto& n = content.normals[i];
+    converted.rejected += !converted.surflets.appendChecked({p[0], p[1], p[2], n[0], n[1], n[2]});
+  }
+  return ofPoints(path, std::move(converted));
+}
+
+std::string
+lowerEnding(const std::string& path)
+{
+  std::string ending = std::filesystem::path(path).extension().string();
+  for (char& c : ending)
+    c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  return ending;
+}
+
+} // namespace
+
+SurfaceFileError::~SurfaceFileError() = default;
+
+SurfaceFile
+loadSurface(const std::string& path, const SurfaceFileOptions& options)
+{
+  const std::string ending = lowerEnding(path);
+  try {
+    if (ending == ".pcd")
+      return loadPcdSurface(path, options);
+    if (ending == ".ply")
+      return loadPlySurface(path, options);
+    if (ending == ".obj")
+      return ofMesh(path, detail::loadObj(path));
+    if (ending == ".stl")
+      return ofMesh(path, detail::loadStl(path));
+    if (ending == ".off")
+      return ofMesh(path, loadOff(path));
+  }
+  catch (const MeshFileError& error) {
+    throw SurfaceFileError(std::string("cannot use ") + error.what());
+  }
+  catch (const std::invalid_argument& error) { // e.g. options.estimate_normals below 3
+    throw SurfaceFileError("cannot use '" + path + "': " + error.what());
+  }
+  catch (const std::bad_alloc&) {
+    refuse(path, "it does not fit into memory", "reduce it first");
+  }
+  refuse(path, "the kind of file is not known from its ending",
+         "give a file that ends in .pcd, .ply, .obj, .stl or .off");
+}
+
+SurfletSet
+surfletsOf(const SurfaceFile& file, std::size_t mesh_surflets, std::uint64_t seed)
+{
+  return file.mesh ? sampleIsoMesh(*file.mesh, mesh_surflets, seed) : file.surflets;
+}
+
+} // namespace pcl_surflet

@@ -1,0 +1,55 @@
+/** \file
+ * Runs the pcl_surflet_* programs as a user's shell would. */
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+namespace test {
+
+/** \brief What a program said and returned. */
+struct AppRun {
+  int code = -1; ///< exit code, or -1 if it was killed by a signal (a crash, or a minute is over)
+  std::string out, err;
+};
+
+/** \brief Runs \p app ("train" for pcl_surflet_train) with at most a minute and 3 GiB.
+ * \param out where stdout goes instead of into the result */
+AppRun run(const std::string& app, const std::vector<std::string>& arguments,
+           const std::string& out = {});
+
+std::string readFile(const std::string& path);
+void writeFile(const std::string& path, const std::string& content);
+
+/** \brief Rows and fields of a CSV text. */
+std::vector<std::vector<std::string>> parseCsv(const std::string& text);
+
+/** \brief Every test has a directory of its own, with a few shapes and a database of them. */
+class Apps : public testing::Test {
+protected:
+  void SetUp() override;
+  void TearDown() override;
+
+  std::string
+  path(const std::string& name) const
+  {
+    return (directory_ / name).string();
+  }
+  /** \brief Makes ball.pcd, die.ply and cup.off. */
+  void makeShapes();
+  /** \brief makeShapes() and db.pcd of the three. */
+  void makeDatabase();
+
+  std::filesystem::path directory_;
+};
+
+/** \brief The run ended with \p code and said every one of \p words on stderr. */
+testing::AssertionResult ended(const AppRun& run, int code, const std::vector<std::string>& words);
+
+} // namespace test
+} // namespace pcl_surflet

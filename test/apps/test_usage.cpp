@@ -1,0 +1,139 @@
+// Command lines, right and wrong.
+#include "app_runner.h"
+
+using namespace pcl_surflet::test;
+
+namespace {
+
+const char* const kApps[] = {"train", "classify", "feature", "info", "generate_shape"};
+
+struct WrongLine {
+  const char* app;
+  std::vector<std::string> arguments;
+  const char* named; ///< what the message must name
+};
+
+void
+expectWrong(const std::vector<WrongLine>& lines)
+{
+  for (const auto& line : lines) {
+    const AppRun r = run(line.app, line.arguments);
+    EXPECT_TRUE(ended(r, 1, {line.named, "-h"})) << line.app << " " << line.named;
+    EXPECT_EQ(r.out, "") << line.app << " " << line.named;
+  }
+}
+
+} // namespace
+
+TEST(Usage, HelpGoesToStdoutAndSucceeds)
+{
+  for (const auto* app : kApps)
+    for (const auto* flag : {"-h", "--help"}) {
+      const AppRun r = run(app, {flag});
+      EXPECT_EQ(r.code, 0) << app;
+      EXPECT_EQ(r.err, "") << app;
+      for (const std::string& word : {std::string("Usage: pcl_surflet_") + app,
+                                      std::string("Exit codes: 0"), std::string("-h, --help")})
+        EXPECT_NE(r.out.find(word), std::string::npos) << app << ": " << word;
+    }
+  EXPECT_EQ(run("train", {"-nonsense", "-h"}).code, 0) << "asking for help is never wrong";
+}
+
+TEST(Usage, HelpNamesEveryOption)
+{
+  const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
+      {"train",
+       {"-database", "-label", "-background", "-bins", "-pairs", "-seed", "-threads", "-k"}},
+      {"classify",
+       {"-database", "-criterion", "-features", "-top", "-unknown", "-scale_normalized", "-seed",
+        "-threads", "-k", "-csv"}},
+      {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
+      {"info", {"-csv"}},
+      {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
+  for (const auto& [app, names] : options) {
+    const std::string help = run(app, {"-h"}).out;
+    for (const auto& name : names)
+      EXPECT_NE(help.find(name), std::string::npos) << app << " " << name;
+  }
+}
+
+TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
+{
+  for (const auto* app : kApps)
+    expectWrong({{app, {"-colour", "red"}, "-colour"}, {app, {"--threads"}, "--threads"}});
+  expectWrong({{"train", {"a.pcd"}, "-database"},
+               {"train", {"-database", "d.pcd"}, "FILE"},
+               {"train", {}, "-database"},
+               {"classify", {"a.pcd"}, "-database"},
+               {"classify", {"-database", "d.pcd"}, "FILE"},
+               {"feature", {"a.pcd"}, "OUT.pcd"},
+               {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
+               {"info", {}, "DB.pcd"},
+               {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
+               {"generate_shape", {"sphere"}, "OUT"},
+               {"generate_shape", {"sphere", "a.pcd", "b"}, "'b'"}});
+}
+
+TEST(Usage, MissingAndRepeatedValuesAreNamed)
+{
+  expectWrong({{"train", {"a.pcd", "-database"}, "-database"},
+               {"train", {"-database", "-label", "x", "a.pcd"}, "-database"},
+               {"train", {"-database", "", "a.pcd"}, "-database"},
+               {"train", {"-database", "d.pcd", "-seed", "1", "-seed", "2", "a.pcd"}, "-seed"},
+               {"classify", {"-database", "d.pcd", "a.pcd", "-top"}, "-top"},
+               {"classify", {"-database", "d.pcd", "a.pcd", "-unknown", "--"}, "-unknown"},
+               {"feature", {"a.pcd", "b.pcd", "-delta_max"}, "-delta_max"},
+               {"generate_shape", {"sphere", "a.pcd", "-noise"}, "-noise"}});
+}
+
+TEST(Usage, MalformedNumbersAreNamed)
+{
+  for (const std::string bad :
+       {"abc", "1x", "", " 1", "1.5", "-1", "0x10", "99999999999999999999", "nan", "+1"}) {
+    expectWrong({{"train", {"-database", "d.pcd", "a.pcd", "-seed", bad}, "-seed"},
+                 {"train", {"-database", "d.pcd", "a.pcd", "-threads", bad}, "-threads"},
+                 {"train", {"-database", "d.pcd", "a.pcd", "-pairs", bad}, "-pairs"},
+                 {"train", {"-database", "d.pcd", "a.pcd", "-k", bad}, "-k"},
+                 {"classify", {"-database", "d.pcd", "a.pcd", "-features", bad}, "-features"},
+                 {"classify", {"-database", "d.pcd", "a.pcd", "-top", bad}, "-top"},
+                 {"generate_shape", {"sphere", "a.pcd", "-points", bad}, "-points"}});
+  }
+  for (const std::string bad : {"abc", "1x", "", " 1", "nan", "inf", "1e999", "1,5"})
+    expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-unknown", bad}, "-unknown"},
+                 {"feature", {"a.pcd", "b.pcd", "-delta_max", bad}, "-delta_max"},
+                 {"generate_shape", {"sphere", "a.pcd", "-noise", bad}, "-noise"}});
+}
+
+TEST(Usage, ValuesOutOfRangeAreNamed)
+{
+  expectWrong({{"train", {"-database", "d.pcd", "a.pcd", "-pairs", "0"}, "-pairs"},
+               {"train", {"-database", "d.pcd", "a.pcd", "-k", "2"}, "-k"},
+               {"train", {"-database", "d.pcd", "a.pcd", "-threads", "100000"}, "-threads"},
+               {"classify", {"-database", "d.pcd", "a.pcd", "-top", "0"}, "-top"},
+               {"classify", {"-database", "d.pcd", "a.pcd", "-features", "0"}, "-features"},
+               {"feature", {"a.pcd", "b.pcd", "-delta_max", "0"}, "-delta_max"},
+               {"feature", {"a.pcd", "b.pcd", "-delta_max", "-1"}, "-delta_max"},
+               {"generate_shape", {"sphere", "a.pcd", "-points", "2"}, "-points"},
+               {"generate_shape", {"sphere", "a.pcd", "-noise", "-0.1"}, "-noise"}});
+}
+
+TEST(Usage, WrongNamesAreNamed)
+{
+  expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
+               {"generate_shape", {"dodecahedron", "a.pcd"}, "wine_glass"},
+               {"generate_shape", {"sphere", "a.stl"}, ".off"}});
+}
+
+TEST(Usage, WrongResolutionsAreNamed)
+{
+  for (const std::string bad : {"5", "5,5,5", "5,5,5,5,5", "5,5,5,", ",5,5,5", "5,5,5,0",
+                                "5,5,5,65", "64,64,64,64", "a,b,c,d", "5 5 5 5", "5,5,5,-5"})
+    expectWrong({{"train", {"-database", "d.pcd", "a.pcd", "-bins", bad}, "-bins"}});
+}
+
+TEST(Usage, OneLabelForOneFile)
+{
+  expectWrong({{"train", {"-database", "d.pcd", "-label", "x", "a.pcd", "b.pcd"}, "-label"},
+               {"train", {"-database", "d.pcd", "-label", std::string(64, 'x'), "a.pcd"}, "-label"},
+               {"train", {"-database", "d.pcd", "one/a.pcd", "two/a.off"}, "one/a.pcd"}});
+}
