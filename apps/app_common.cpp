@@ -85,15 +85,29 @@ runMain(const std::string& program, const std::function<int()>& body)
   return code;
 }
 
+namespace {
+
+/** \brief Makes room for a message where the progress bar may stand. */
+void
+clearLine()
+{
+  if (::isatty(STDERR_FILENO))
+    std::fputs("\r\033[K", stderr);
+}
+
+} // namespace
+
 void
 note(const std::string& text)
 {
+  clearLine();
   pcl::console::print_highlight(stderr, "%s\n", text.c_str());
 }
 
 void
 complain(const std::string& text)
 {
+  clearLine();
   pcl::console::print_color(stderr, pcl::console::TT_BRIGHT, pcl::console::TT_RED, "%s\n",
                             text.c_str());
 }
@@ -103,22 +117,23 @@ Progress::Progress(std::size_t total) : total_(total), on_(total > 1 && ::isatty
 Progress::~Progress() { clear(); }
 
 void
+Progress::clear()
+{
+  if (on_)
+    clearLine();
+}
+
+void
 Progress::show(std::size_t done, const std::string& item)
 {
   constexpr std::size_t kWidth = 30, kNameWidth = 30;
   if (!on_)
     return;
   const std::size_t filled = kWidth * done / total_;
-  std::fprintf(stderr, "\r[%s%s] %zu/%zu %s\033[K", std::string(filled, '#').c_str(),
+  clearLine();
+  std::fprintf(stderr, "[%s%s] %zu/%zu %s", std::string(filled, '#').c_str(),
                std::string(kWidth - filled, ' ').c_str(), done, total_,
                stemOf(item).substr(0, kNameWidth).c_str());
-}
-
-void
-Progress::clear()
-{
-  if (on_)
-    std::fputs("\r\033[K", stderr);
 }
 
 std::string

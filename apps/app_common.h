@@ -107,7 +107,7 @@ public:
   Progress& operator=(const Progress&) = delete;
 
   void show(std::size_t done, const std::string& item);
-  /** \brief Clears the line, so that a message can be written. */
+  /** \brief Makes room for results; messages do so themselves. */
   void clear();
 
 private:

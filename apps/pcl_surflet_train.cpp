@@ -175,12 +175,10 @@ train(int argc, char** argv)
       trainFile(o, trainer, o.files[i], database);
     }
     catch (const std::exception& error) {
-      progress.clear();
       complain(std::string(kProgram) + ": " + about(o.files[i], error.what()));
       ++failed;
     }
   }
-  progress.clear();
   if (failed < o.files.size())
     saveDatabase(database, o.database);
   if (failed > 0)
