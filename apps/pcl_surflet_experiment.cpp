@@ -17,7 +17,6 @@ namespace {
 struct Options {
   std::string meshes, out;
   std::uint64_t tests = 100, seed = 1, threads = 0;
-  bool quick = false;
 };
 
 std::vector<Condition>
@@ -88,6 +87,15 @@ makeDirectory(const std::string& path)
     throw DataError("cannot make the directory '" + path + "': " + error.message());
 }
 
+/** \brief Runs \p work with a function that shows its progress over \p steps. */
+template <class Result, class Work>
+Result
+withProgress(std::size_t steps, const Work& work)
+{
+  Progress progress(steps);
+  return work([&](std::size_t done, const std::string& what) { progress.show(done, what); });
+}
+
 /** \brief Table 3.1 and points of Fig. 3.5 and 3.6 by the likelihood criterion. */
 int
 classification(const Options& options)
@@ -95,18 +103,15 @@ classification(const Options& options)
   makeDirectory(options.out);
   const auto objects = loadObjects(options.meshes, experimentLabels());
   const auto threads = static_cast<unsigned>(options.threads);
-  ModelDatabase database;
-  std::vector<ConditionResult> results;
-  {
-    Progress progress(0);
-    const auto show = [&](std::size_t done, std::size_t all, const std::string& what) {
-      progress.show(done, all, what);
-    };
-    database = trainObjects(objects, {}, options.seed, threads, show);
-    saveDatabase(database, options.out + "/objects.pcd");
-    const ClassificationPlan plan{conditions(), options.tests, options.seed, threads};
-    results = runClassification(objects, HistogramClassifier(database), plan, show);
-  }
+  const ClassificationPlan plan{conditions(), options.tests, options.seed, threads};
+  const auto database = withProgress<ModelDatabase>(objects.size(), [&](const auto& show) {
+    return trainObjects(objects, {}, options.seed, threads, show);
+  });
+  saveDatabase(database, options.out + "/objects.pcd");
+  const auto results = withProgress<std::vector<ConditionResult>>(
+      plan.conditions.size() * objects.size(), [&](const auto& show) {
+        return runClassification(objects, HistogramClassifier(database), plan, show);
+      });
   std::printf(
       "%zu objects of one diameter, resolution %s, likelihood criterion, %llu tests per object "
       "and condition, seed %llu\n\n",
@@ -134,18 +139,18 @@ run(int argc, char** argv)
       "Runs an experiment of the dissertation and prints its result.\n"
       "NAME: classification  Table 3.1, Fig. 3.5, 3.6: rates of 20 objects under ideal and\n"
       "                      disturbed conditions");
-  line.text("meshes", "DIR",
+  line.text("-meshes", "DIR",
             "directory of the OFF meshes of the Debian package libcgal-demo (needed)",
             options.meshes);
-  line.text("out", "DIR", "directory for results, made if missing (needed)", options.out);
-  line.count("tests", "N", "tests per object and condition", options.tests, 1, 1000000);
+  line.text("-out", "DIR", "directory for results, made if missing (needed)", options.out);
+  line.count("-tests", "N", "tests per object and condition", options.tests, 1, 1000000);
   addSeed(line, options.seed);
   addThreads(line, options.threads);
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1);
-  line.require("meshes");
-  line.require("out");
+  line.require("-meshes");
+  line.require("-out");
   if (line.files()[0] != "classification")
     throw UsageError("unknown experiment '" + line.files()[0] + "'; known: classification");
   return classification(options);

@@ -78,7 +78,7 @@ trainObjects(const std::vector<ExperimentObject>& objects, const Resolution& res
   trainer.setMeshSampling(kSamplingSize, 5);
   ModelDatabase database;
   for (std::size_t i = 0; i < objects.size(); ++i) {
-    progress(i, objects.size(), "training " + objects[i].label);
+    progress(i, "training " + objects[i].label);
     database.add(trainer.train(objects[i].label, objects[i].mesh));
   }
   return database;
@@ -103,11 +103,10 @@ runClassification(const std::vector<ExperimentObject>& objects,
                   const ProgressFunction& progress)
 {
   std::vector<ConditionResult> results;
-  const std::size_t all = plan.conditions.size() * objects.size();
   for (std::size_t c = 0; c < plan.conditions.size(); ++c) {
     std::vector<Answer> answers(objects.size() * plan.tests);
     for (std::size_t o = 0; o < objects.size(); ++o) {
-      progress(c * objects.size() + o, all, plan.conditions[c].name + ": " + objects[o].label);
+      progress(c * objects.size() + o, plan.conditions[c].name + ": " + objects[o].label);
       parallelFor(plan.tests, plan.threads, [&](std::size_t t, unsigned) {
         // Seeds of their own: no query is a sampling that a model was trained with.
         const auto seed = mix64(mix64(mix64(plan.seed) + c) + o) + t;

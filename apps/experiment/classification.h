@@ -45,7 +45,7 @@ struct ConditionResult {
 /** \brief Bounds of the 95 % confidence interval of a rate (Wilson). */
 std::pair<double, double> confidenceInterval(std::uint64_t right, std::uint64_t tests);
 
-using ProgressFunction = std::function<void(std::size_t done, std::size_t all, const std::string&)>;
+using ProgressFunction = std::function<void(std::size_t done, const std::string& what)>;
 
 /** \brief Trains one model an object by training A (meshes). */
 ModelDatabase trainObjects(const std::vector<ExperimentObject>& objects,

@@ -79,13 +79,14 @@ private:
   flush()
   {
     const std::size_t bins = histogram_.counts.size();
-    for (int copy = 0; copy < kCounterCopies; ++copy) {
-      const auto* c = counts_.data() + static_cast<std::size_t>(copy) * (bins + 1);
-      for (std::size_t b = 0; b < bins; ++b) {
-        histogram_.counts[b] += c[b];
-        histogram_.features += c[b];
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const std::size_t b = i / kCounterCopies;
+      if (b == bins) {
+        histogram_.rejected += counts_[i];
+        continue;
       }
-      histogram_.rejected += c[bins];
+      histogram_.counts[b] += counts_[i];
+      histogram_.features += counts_[i];
     }
     std::fill(counts_.begin(), counts_.end(), 0u);
     pairs_ = 0;
@@ -128,8 +129,8 @@ shuffledIndices(std::size_t m, std::uint64_t seed)
 PairSource::PairSource(const SurfletSet& set) : unit_(toUnitScale(set))
 {
   const std::size_t n = set.size();
-  if (n > (std::size_t{1} << 31))
-    throw std::length_error("pcl_surflet: more than 2^31 surflets; reduce the cloud first");
+  if (n >= (std::size_t{1} << 29))
+    throw std::length_error("pcl_surflet: 2^29 surflets or more; reduce the cloud first");
   storage_.assign(8 * n + 8, 0.f);
   void* aligned = storage_.data();
   std::size_t space = storage_.size() * sizeof(float);
@@ -233,7 +234,7 @@ drawFeatures(const PairSource& source, const Resolution& resolution, std::uint64
   for (std::size_t i = 0; i < n; ++i) {
     if (sample.angular_bin[i] == kernels::kNoFeature)
       continue;
-    sample.angular_bin[kept] = sample.angular_bin[i];
+    sample.angular_bin[kept] = sample.angular_bin[i] / kCounterCopies;
     sample.delta_squared[kept++] = sample.delta_squared[i];
   }
   sample.rejected = n - kept;

@@ -80,10 +80,12 @@ cosineMap(int n, int stride)
 } // namespace
 
 BinMap::BinMap(const Resolution& r, double delta_max)
-    : alpha(azimuthMap(r.alpha, 1)), beta(cosineMap(r.beta, r.alpha)),
-      gamma(cosineMap(r.gamma, r.alpha * r.beta)), right_angle_border(r.alpha % 4 == 0),
-      delta_stride(static_cast<float>(r.angularBins())), delta_borders(r.delta - 1), delta_border{},
-      bins(r.bins())
+    : alpha(azimuthMap(r.alpha, kCounterCopies)), beta(cosineMap(r.beta, kCounterCopies * r.alpha)),
+      gamma(cosineMap(r.gamma, kCounterCopies * r.alpha * r.beta)),
+      right_angle_border(r.alpha % 4 == 0),
+      delta_stride(static_cast<float>(kCounterCopies * r.angularBins())),
+      delta_borders(r.delta - 1), delta_border{},
+      no_feature(static_cast<float>(kCounterCopies * r.bins()))
 {
   for (int k = 0; k < delta_borders; ++k)
     delta_border[k] = squaredDeltaBorder(k, r.delta, delta_max);

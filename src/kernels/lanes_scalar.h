@@ -64,7 +64,7 @@ struct ScalarLanes {
   static void
   loadRecords(const float* records, const std::uint32_t* index, Lanes& s)
   {
-    const float* r = records + std::size_t{8} * *index;
+    const float* r = records + *index;
     s = {r[0], r[1], r[2], r[3], r[4], r[5]};
   }
 };

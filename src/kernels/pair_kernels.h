@@ -17,10 +17,11 @@ namespace pcl_surflet {
 namespace kernels {
 
 /** \brief Copies of the counters, used in turn: consecutive pairs often fall into the same bin, and
- * an increment has to wait for the one before it only in the same copy. */
+ * an increment has to wait for the one before it only in the same copy. The copies of a bin are
+ * neighbours. */
 constexpr int kCounterCopies = 4;
 
-/** \brief Rejected pairs are counted behind the last bin; angular bin of a pair without feature. */
+/** \brief Counter index of a pair without feature, where it is written. */
 constexpr std::uint32_t kNoFeature = 0xffffffffu;
 
 /** \brief Intervals of one angular dimension, symmetric about 0. */
@@ -41,7 +42,7 @@ struct BinMap {
   float delta_stride;
   int delta_borders;
   float delta_border[Resolution::kMaxPerDimension]; ///< squared
-  int bins;
+  float no_feature; ///< counter index of the pairs without feature, behind the last bin
 };
 
 /** \brief Border \p k (0 ... n - 2) between the \p n intervals of delta, squared. */
@@ -64,7 +65,7 @@ struct DrawKeys {
 };
 
 /** \brief A block of drawn pairs: the numbers first .. first + n - 1 of the block with \p keys, of
- * surflets stored as \p m records of 8 floats (x y z nx ny nz 0 0), 32-byte aligned. */
+ * surflets stored as \p m records of 8 floats (x y z nx ny nz 0 0), 32-byte aligned. m < 2^29. */
 struct DrawnBlock {
   const float* records;
   std::uint32_t m;
@@ -76,13 +77,14 @@ constexpr std::uint32_t kDrawBlock = 4096;
 
 struct PairKernels {
   const char* name;
-  /** Counts the pairs (a[i], b[i]), i < n, into kCounterCopies arrays of bins + 1 counters. */
+  /** Counts the pairs (a[i], b[i]), i < n, into kCounterCopies counters for each of bins + 1. */
   void (*countStream)(Columns a, Columns b, std::size_t n, const BinMap& map,
                       std::uint32_t* counts);
   /** Counts a block of drawn pairs likewise. */
   void (*countDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* counts);
-  /** Writes angular bin (kNoFeature for none) and squared distance of each drawn pair. */
-  void (*featuresDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* angular_bin,
+  /** Writes counter index (kNoFeature for none) of delta interval 0, and squared distance, of each
+   * drawn pair. */
+  void (*featuresDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* index,
                         float* delta_squared);
   /** Writes the indices of each drawn pair, for those who need the surflets themselves. */
   void (*drawIndices)(const DrawnBlock& block, std::uint32_t* first, std::uint32_t* second);

@@ -62,8 +62,8 @@ struct Avx2Lanes {
   loadRecords(const float* records, const std::uint32_t* index, Lanes<Avx2Lanes>& s)
   {
     const auto row = [&](int a, int b, int half) {
-      const float* low = records + std::size_t{8} * index[a] + 4 * half;
-      const float* high = records + std::size_t{8} * index[b] + 4 * half;
+      const float* low = records + index[a] + 4 * half;
+      const float* high = records + index[b] + 4 * half;
       return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_load_ps(low)), _mm_load_ps(high), 1);
     };
     const __m256 r0 = row(0, 4, 0), r1 = row(1, 5, 0), r2 = row(2, 6, 0), r3 = row(3, 7, 0);

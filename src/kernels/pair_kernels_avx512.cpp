@@ -60,9 +60,7 @@ struct Avx512Lanes {
   static void
   loadRecords(const float* records, const std::uint32_t* index, Lanes<Avx512Lanes>& s)
   {
-    const auto part = [&](int k, int half) {
-      return _mm_load_ps(records + std::size_t{8} * index[k] + 4 * half);
-    };
+    const auto part = [&](int k, int half) { return _mm_load_ps(records + index[k] + 4 * half); };
     const auto row = [&](int k, int half) {
       __m512 v = _mm512_castps128_ps512(part(k, half));
       v = _mm512_insertf32x4(v, part(k + 4, half), 1);

@@ -65,7 +65,7 @@ struct BaselineLanes {
   {
     const float* r[kWidth];
     for (int k = 0; k < kWidth; ++k)
-      r[k] = records + std::size_t{8} * index[k];
+      r[k] = records + index[k];
     const auto column = [&](int c) { return F{r[0][c], r[1][c], r[2][c], r[3][c]}; };
     s = {column(0), column(1), column(2), column(3), column(4), column(5)};
   }

@@ -21,7 +21,7 @@ struct Lanes {
 /** \brief Features of kWidth pairs, as far as bins need them. */
 template <class V>
 struct LaneFeatures {
-  typename V::F bin;           ///< bin of (alpha, beta, gamma), a whole number
+  typename V::F index;         ///< counter index of (alpha, beta, gamma), a whole number
   typename V::F delta_squared; ///< delta^2
   typename V::M valid;
 };
@@ -34,19 +34,27 @@ dot(typename V::F ax, typename V::F ay, typename V::F az, typename V::F bx, type
   return ax * bx + ay * by + az * bz;
 }
 
+/** \brief Numbers of interval borders known at compile time, so that the loops over them unroll; 0
+ * where only BinMap knows. */
+template <int angular, int delta>
+struct Borders {
+  static constexpr int kAngular = angular, kDelta = delta;
+};
+
 /** \brief Adds to \p bin the interval of a value that is known by sign and squared ratio.
  *
  * The intervals lie symmetric about 0, so it is enough to count the borders that the magnitude
  * exceeds, \p over >= border^2 * \p under, upwards from the middle for positive and downwards for
  * negative values. No root and no division is needed, and no clamping either. */
-template <class V>
+template <class V, class B>
 inline typename V::F
 addInterval(typename V::F bin, typename V::M negative, typename V::F over, typename V::F under,
             const AxisMap& axis)
 {
   const auto step = V::select(negative, V::set(-axis.stride), V::set(axis.stride));
   bin = bin + V::select(negative, V::set(axis.base_negative), V::set(axis.base));
-  for (int k = 0; k < axis.borders; ++k)
+  const int borders = B::kAngular > 0 ? B::kAngular : axis.borders;
+  for (int k = 0; k < borders; ++k)
     bin = V::addIf(V::lessEqual(under * V::set(axis.border[k]), over), bin, step);
   return bin;
 }
@@ -68,7 +76,7 @@ originIsSecond(typename V::F a, typename V::F minus_b)
  * With u = n1 and d seen from the origin: |d x u|^2 = d.d - (u.d)^2, beta = det(d, n1, n2)/|d x u|
  * (the same for either origin), gamma = u.d/|d|, and alpha = atan2(n2.d - (n1.n2)(u.d),
  * (n1.n2)|d x u|). Only signs and squares of these are formed: their intervals need no more. */
-template <class V>
+template <class V, class B>
 inline LaneFeatures<V>
 features(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map)
 {
@@ -102,23 +110,24 @@ features(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map)
   LaneFeatures<V> f;
   f.delta_squared = dd;
   f.valid = V::less(dd * V::set(float(kCollinearityTolerance)), v_squared);
-  f.bin = addInterval<V>(zero, alpha_negative, minus_cosine, sine_squared, map.alpha);
-  f.bin = addInterval<V>(f.bin, V::less(determinant, zero), determinant * determinant, v_squared,
-                         map.beta);
-  f.bin = addInterval<V>(f.bin, V::less(ud, zero), ud_squared, dd, map.gamma);
+  f.index = addInterval<V, B>(zero, alpha_negative, minus_cosine, sine_squared, map.alpha);
+  f.index = addInterval<V, B>(f.index, V::less(determinant, zero), determinant * determinant,
+                              v_squared, map.beta);
+  f.index = addInterval<V, B>(f.index, V::less(ud, zero), ud_squared, dd, map.gamma);
   return f;
 }
 
-/** \brief Bin of each pair; the bin behind the last one for pairs without feature. */
-template <class V>
+/** \brief Counter index of each pair; that behind the last bin for pairs without feature. */
+template <class V, class B>
 inline typename V::F
-bins(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map)
+counterIndex(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map)
 {
-  auto f = features<V>(s1, s2, map);
-  for (int k = 0; k < map.delta_borders; ++k)
-    f.bin = V::addIf(V::lessEqual(V::set(map.delta_border[k]), f.delta_squared), f.bin,
-                     V::set(map.delta_stride));
-  return V::select(f.valid, f.bin, V::set(float(map.bins)));
+  auto f = features<V, B>(s1, s2, map);
+  const int borders = B::kDelta > 0 ? B::kDelta : map.delta_borders;
+  for (int k = 0; k < borders; ++k)
+    f.index = V::addIf(V::lessEqual(V::set(map.delta_border[k]), f.delta_squared), f.index,
+                       V::set(map.delta_stride));
+  return V::select(f.valid, f.index, V::set(map.no_feature));
 }
 
 /** \brief Counts bins some vectors after they were stored.
@@ -129,13 +138,13 @@ bins(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map)
  * overlap. */
 class DelayedCounter {
 public:
-  DelayedCounter(std::uint32_t* counts, int stride) : counts_(counts), stride_(stride) {}
+  explicit DelayedCounter(std::uint32_t* counts) : counts_(counts) {}
 
   template <class V>
   inline void
-  add(typename V::F bin)
+  add(typename V::F index)
   {
-    V::storeIndex(ring_ + head_ % kRing, bin);
+    V::storeIndex(ring_ + head_ % kRing, index);
     head_ += V::kWidth;
     if (head_ - tail_ > kLag)
       count<V::kWidth>();
@@ -155,17 +164,34 @@ private:
   inline void
   count()
   {
-    const std::uint32_t* bin = ring_ + tail_ % kRing;
+    const std::uint32_t* index = ring_ + tail_ % kRing;
     for (int lane = 0; lane < n; ++lane)
-      ++counts_[(lane % kCounterCopies) * stride_ + static_cast<int>(bin[lane])];
+      ++counts_[std::size_t{index[lane]} + lane % kCounterCopies];
     tail_ += n;
   }
 
   alignas(64) std::uint32_t ring_[kRing];
   std::uint32_t* counts_;
-  int stride_;
   std::uint32_t head_ = 0, tail_ = 0;
 };
+
+/** \brief Calls \p run with the Borders of \p map: the resolutions 5, 7 and 8 (all dimensions
+ * alike), which matter, unroll. */
+template <class Run>
+inline void
+withBorders(const BinMap& map, const Run& run)
+{
+  const int a = map.alpha.borders, d = map.delta_borders;
+  const bool alike = map.beta.borders == a && map.gamma.borders == a;
+  if (alike && a == 2 && d == 4)
+    run(Borders<2, 4>());
+  else if (alike && a == 3 && d == 6)
+    run(Borders<3, 6>());
+  else if (alike && a == 3 && d == 7)
+    run(Borders<3, 7>());
+  else
+    run(Borders<0, 0>());
+}
 
 template <class V>
 inline Lanes<V>
@@ -175,26 +201,30 @@ loadColumns(const Columns& c, std::size_t i)
           V::load(c.nx + i), V::load(c.ny + i), V::load(c.nz + i)};
 }
 
-template <class V>
-std::size_t
+template <class V, class B>
+inline std::size_t
 countStreamLanes(const Columns& a, const Columns& b, std::size_t first, std::size_t n,
                  const BinMap& map, DelayedCounter& counter)
 {
   std::size_t i = first;
   for (; i + V::kWidth <= n; i += V::kWidth)
-    counter.add<V>(bins<V>(loadColumns<V>(a, i), loadColumns<V>(b, i), map));
+    counter.add<V>(counterIndex<V, B>(loadColumns<V>(a, i), loadColumns<V>(b, i), map));
   return i;
 }
 
 template <class V>
 void
-countStream(Columns a, Columns b, std::size_t n, const BinMap& map, std::uint32_t* counts)
+countStream(Columns a, Columns b, std::size_t n, const BinMap& shared_map, std::uint32_t* counts)
 {
-  DelayedCounter counter(counts, map.bins + 1);
-  const std::size_t done = countStreamLanes<V>(a, b, 0, n, map, counter);
-  counter.flush();
-  countStreamLanes<ScalarLanes>(a, b, done, n, map, counter);
-  counter.flush();
+  const BinMap map = shared_map; // a copy of our own may stay in registers
+  DelayedCounter counter(counts);
+  withBorders(map, [&](auto borders) {
+    using B = decltype(borders);
+    const std::size_t done = countStreamLanes<V, B>(a, b, 0, n, map, counter);
+    counter.flush();
+    countStreamLanes<ScalarLanes, Borders<0, 0>>(a, b, done, n, map, counter);
+    counter.flush();
+  });
 }
 
 /** \brief A bijective 32-bit mixing function (integer finaliser of low bias). */
@@ -225,86 +255,96 @@ drawIndices(const DrawnBlock& block, std::uint32_t* __restrict first,
   }
 }
 
-/** \brief Calls process(lanes of first, lanes of second, offset) for every drawn pair of the block.
+/** \brief Places of a block's records, in floats, padded so that prefetching may read past the end.
+ */
+struct BlockIndices {
+  static constexpr std::uint32_t kPadding = 64;
+
+  alignas(64) std::uint32_t first[kDrawBlock + kPadding];
+  alignas(64) std::uint32_t second[kDrawBlock + kPadding];
+
+  explicit BlockIndices(const DrawnBlock& block)
+  {
+    drawIndices(block, first, second);
+    for (std::uint32_t k = block.n; k < block.n + kPadding; ++k)
+      first[k] = second[k] = 0;
+    for (std::uint32_t k = 0; k < block.n; ++k) {
+      first[k] *= 8;
+      second[k] *= 8;
+    }
+  }
+};
+
+/** \brief Calls process(lanes of first, lanes of second, offset) for the drawn pairs from \p begin
+ * on, as long as they fill the lanes. \return where it stopped
  *
- * Records lie scattered over a cache-busting array, so they are fetched ahead. */
+ * Records lie scattered over memory, so they are fetched ahead. */
 template <class V, class Process>
 inline std::uint32_t
-forDrawnLanes(const DrawnBlock& block, const std::uint32_t* first, const std::uint32_t* second,
-              std::uint32_t begin, const Process& process)
+forDrawnLanes(const DrawnBlock& block, const BlockIndices& indices, std::uint32_t begin,
+              const Process& process)
 {
   constexpr std::uint32_t kAhead = 32;
   std::uint32_t i = begin;
   for (; i + V::kWidth <= block.n; i += V::kWidth) {
     for (std::uint32_t k = i + kAhead; k < i + kAhead + V::kWidth; ++k) {
-      __builtin_prefetch(block.records + std::size_t{8} * first[k]);
-      __builtin_prefetch(block.records + std::size_t{8} * second[k]);
+      __builtin_prefetch(block.records + indices.first[k]);
+      __builtin_prefetch(block.records + indices.second[k]);
     }
     Lanes<V> s1, s2;
-    V::loadRecords(block.records, first + i, s1);
-    V::loadRecords(block.records, second + i, s2);
+    V::loadRecords(block.records, indices.first + i, s1);
+    V::loadRecords(block.records, indices.second + i, s2);
     process(s1, s2, i);
   }
   return i;
 }
 
-/** \brief Indices of a block, padded so that prefetching may read past the end. */
-struct BlockIndices {
-  alignas(64) std::uint32_t first[kDrawBlock + 64];
-  alignas(64) std::uint32_t second[kDrawBlock + 64];
-
-  explicit BlockIndices(const DrawnBlock& block)
-  {
-    drawIndices(block, first, second);
-    for (std::uint32_t k = block.n; k < block.n + 64; ++k)
-      first[k] = second[k] = 0;
-  }
-};
-
 template <class V>
 void
-countDrawn(const DrawnBlock& block, const BinMap& map, std::uint32_t* counts)
+countDrawn(const DrawnBlock& block, const BinMap& shared_map, std::uint32_t* counts)
 {
+  const BinMap map = shared_map;
   const BlockIndices indices(block);
-  DelayedCounter counter(counts, map.bins + 1);
-  const auto vector = [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t) {
-    counter.add<V>(bins<V>(s1, s2, map));
-  };
-  const auto scalar = [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2,
-                          std::uint32_t) {
-    counter.add<ScalarLanes>(bins<ScalarLanes>(s1, s2, map));
-  };
-  const auto done = forDrawnLanes<V>(block, indices.first, indices.second, 0, vector);
-  counter.flush();
-  forDrawnLanes<ScalarLanes>(block, indices.first, indices.second, done, scalar);
-  counter.flush();
+  DelayedCounter counter(counts);
+  withBorders(map, [&](auto borders) {
+    using B = decltype(borders);
+    const auto done =
+        forDrawnLanes<V>(block, indices, 0, [&](const auto& s1, const auto& s2, auto) {
+          counter.add<V>(counterIndex<V, B>(s1, s2, map));
+        });
+    counter.flush();
+    forDrawnLanes<ScalarLanes>(block, indices, done, [&](const auto& s1, const auto& s2, auto) {
+      counter.add<ScalarLanes>(counterIndex<ScalarLanes, Borders<0, 0>>(s1, s2, map));
+    });
+    counter.flush();
+  });
 }
 
 template <class V>
 inline void
-storeFeatures(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map, std::uint32_t* angular_bin,
+storeFeatures(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map, std::uint32_t* index,
               float* delta_squared)
 {
-  const auto f = features<V>(s1, s2, map);
-  V::storeIndex(angular_bin, V::select(f.valid, f.bin, V::set(-1.f)));
+  const auto f = features<V, Borders<0, 0>>(s1, s2, map);
+  V::storeIndex(index, V::select(f.valid, f.index, V::set(-1.f)));
   V::store(delta_squared, f.delta_squared);
 }
 
 template <class V>
 void
-featuresDrawn(const DrawnBlock& block, const BinMap& map, std::uint32_t* angular_bin,
+featuresDrawn(const DrawnBlock& block, const BinMap& map, std::uint32_t* index,
               float* delta_squared)
 {
   const BlockIndices indices(block);
-  const auto vector = [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
-    storeFeatures<V>(s1, s2, map, angular_bin + i, delta_squared + i);
-  };
-  const auto scalar = [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2,
-                          std::uint32_t i) {
-    storeFeatures<ScalarLanes>(s1, s2, map, angular_bin + i, delta_squared + i);
-  };
-  const auto done = forDrawnLanes<V>(block, indices.first, indices.second, 0, vector);
-  forDrawnLanes<ScalarLanes>(block, indices.first, indices.second, done, scalar);
+  const auto done = forDrawnLanes<V>(block, indices, 0,
+                                     [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
+                                       storeFeatures<V>(s1, s2, map, index + i, delta_squared + i);
+                                     });
+  forDrawnLanes<ScalarLanes>(
+      block, indices, done,
+      [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2, std::uint32_t i) {
+        storeFeatures<ScalarLanes>(s1, s2, map, index + i, delta_squared + i);
+      });
 }
 
 } // namespace

@@ -112,7 +112,7 @@ drawnPairs(const PairComputation& computation, std::size_t m, const PairFeatureR
 std::uint64_t
 countablePairs(std::size_t m)
 {
-  if (m < 2 || m > (std::size_t{1} << 31))
+  if (m < 2 || m >= (std::size_t{1} << 29))
     return 0;
   const std::uint64_t pairs = std::uint64_t{m} * (m - 1) / 2;
   return pairs <= kMostPairs ? pairs : 0;

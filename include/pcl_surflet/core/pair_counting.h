@@ -15,7 +15,7 @@ namespace pcl_surflet {
  *
  * Centred and scaled by a power of two (toUnitScale), once as columns for streaming and once as
  * records for random access. Pairs closer than 1e-12 of its extent count as coincident.
- * At most 2^31 surflets (std::length_error). */
+ * Fewer than 2^29 surflets (std::length_error). */
 class PCL_SURFLET_API PairSource {
 public:
   explicit PairSource(const SurfletSet& set);

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# Installs everything pcl_surflet is built, tested and demonstrated with on Debian 12.
+set -euo pipefail
+
+packages=(
+  build-essential ca-certificates cmake ninja-build ccache git
+  libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
+  libgtest-dev libbenchmark-dev libnanoflann-dev
+  gnuplot-nox fonts-dejavu-core
+)
+
+missing=()
+for package in "${packages[@]}"; do
+  dpkg-query -W -f='${Status}' "$package" 2>/dev/null | grep -q 'install ok installed' ||
+    missing+=("$package")
+done
+[ ${#missing[@]} -eq 0 ] && exit 0
+
+as_root=()
+if [ "$(id -u)" -ne 0 ]; then
+  command -v sudo >/dev/null || { echo "Run as root, or install sudo, to install: ${missing[*]}" >&2; exit 1; }
+  as_root=(sudo)
+fi
+echo "Installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
