@@ -150,6 +150,8 @@ trainFile(const Options& o, const HistogramModelTrainer& trainer, const std::str
   loading.threads = static_cast<unsigned>(o.threads);
   const SurfaceFile file = loadSurface(path, loading);
   const std::string label = o.label.empty() ? stemOf(path) : o.label;
+  if (label.size() > HistogramModel::kMaxLabelBytes)
+    throw DataError("'" + path + "': its name is longer than the 63 bytes of a label; give -label");
   HistogramModel model =
       file.mesh ? trainer.train(label, *file.mesh) : trainer.train(label, file.surflets);
   noteLosses(path, file);

@@ -122,6 +122,15 @@ TEST_F(BadData, CloudsWithoutAnyUsablePointOrPair)
   }
 }
 
+TEST_F(BadData, NamesTooLongForALabel)
+{
+  makeShapes();
+  const std::string file = path(std::string(64, 'x') + ".pcd");
+  fs::copy_file(path("ball.pcd"), file);
+  EXPECT_TRUE(ended(train({file}), 2, {file, "-label"}));
+  EXPECT_TRUE(ended(train({"-label", "x", file}), 0, {"added 'x'"}));
+}
+
 TEST_F(BadData, BatchesGoOnPastBadFiles)
 {
   makeDatabase();
