@@ -175,10 +175,7 @@ readDatabase(const std::string& path)
     return loadDatabase(path);
   }
   catch (const DatabaseFileError& error) {
-    std::string message = error.what();
-    // pcl::PCLException puts the place in the source before the message.
-    message.erase(0, std::min(message.find("cannot"), message.size()));
-    throw DataError(about(path, message) + "; give a database made by pcl_surflet_train");
+    throw DataError(about(path, error.what()) + "; give a database made by pcl_surflet_train");
   }
 }
 

@@ -18,9 +18,19 @@ namespace pcl_surflet {
 class PCL_SURFLET_API DatabaseFileError : public pcl::PCLException {
 public:
   explicit DatabaseFileError(const std::string& description)
-      : pcl::PCLException(description, "database_file")
+      : pcl::PCLException(description), description_(description)
   {
   }
+
+  /** \brief The description alone; PCL would put a place in the source before it. */
+  const char*
+  what() const noexcept override
+  {
+    return description_.c_str();
+  }
+
+private:
+  std::string description_;
 };
 
 /** \brief Writes \p database to \p path as binary PCD, atomically: readers see the old file or the

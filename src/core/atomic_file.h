@@ -1,6 +1,8 @@
 /** \file
- * Replaces a file as a whole; internal, not installed. */
+ * Replaces a file as a whole; not installed, shared with the apps. */
 #pragma once
+
+#include "pcl_surflet/export.h"
 
 #include <string>
 
@@ -13,7 +15,7 @@ namespace detail {
  * file keeps its permissions, a symbolic link its target's name. What is neither a file nor absent
  * (a device, a pipe) is written to directly: renaming would replace it.
  * \return what went wrong, empty if nothing. */
-std::string replaceFile(const std::string& path, const std::string& content);
+PCL_SURFLET_API std::string replaceFile(const std::string& path, const std::string& content);
 
 } // namespace detail
 } // namespace pcl_surflet

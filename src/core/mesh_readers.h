@@ -1,10 +1,9 @@
 /** \file
  * Readers of PLY, OBJ and STL; internal, not installed.
  *
- * Our own because hostile files must give an error: PCL 1.13's OBJ reader writes beyond its buffer
- * when a file has more normals than vertices (as ordinary exports have) or a line too few numbers,
- * its PLY reader allocates what the header claims (obj_info, list lengths) and cannot use
- * coordinates in double precision, and VTK's readers print to stderr and rely on the counts.
+ * Our own because hostile files must give an error: PCL 1.13's OBJ reader crashes on a file with
+ * many more normals than vertices, and its PLY reader, by its source, allocates what the header
+ * claims.
  * Memory here grows with what a file holds, not with what it claims to hold. */
 #pragma once
 
