@@ -5,7 +5,6 @@
 #include "pcl_surflet/conversions.h"
 
 #include <pcl/console/print.h>
-#include <pcl/point_traits.h>
 
 #include <string>
 #include <type_traits>
