@@ -21,34 +21,32 @@ struct PCL_SURFLET_API TriangleMesh {
 
   /** \brief Empty if the mesh can be sampled, else what is wrong and how to mend it: no triangles,
    * an index beyond the vertices, a coordinate that is not finite, or no area. */
-  std::string
-  problem() const;
+  std::string problem() const;
 };
 
 /** \brief Total area of the triangles, in squared units. */
-PCL_SURFLET_API double
-surfaceArea(const TriangleMesh& mesh);
+PCL_SURFLET_API double surfaceArea(const TriangleMesh& mesh);
 
 /** \brief Area-weighted mean of the normals of the triangles around each vertex ("umbrella"),
  * normalised [Wahl 2007, Eq. 2.25].
  * Zero vectors where a vertex has no triangle with area or its normals cancel. */
-PCL_SURFLET_API std::vector<TriangleMesh::Point>
-umbrellaNormals(const TriangleMesh& mesh);
+PCL_SURFLET_API std::vector<TriangleMesh::Point> umbrellaNormals(const TriangleMesh& mesh);
 
 /** \brief Splits edges at their middle until none is longer than \p longest_edge.
  *
  * Shared edges are split alike, so a closed mesh stays closed. CAD meshes need it before
  * umbrellaNormals(): on a cube of 12 triangles the umbrella normals of the corners would round the
  * whole faces. Stops (documented, not an error) when \p max_triangles is reached. */
-PCL_SURFLET_API TriangleMesh
-refineEdges(const TriangleMesh& mesh, double longest_edge, std::size_t max_triangles = 2000000);
+PCL_SURFLET_API TriangleMesh refineEdges(const TriangleMesh& mesh, double longest_edge,
+                                         std::size_t max_triangles = 2000000);
 
-/** \brief Draws \p n points uniformly by area, with umbrella normals interpolated over the triangle.
+/** \brief Draws \p n points uniformly by area, with umbrella normals interpolated over the
+ * triangle.
  *
  * Where the interpolated normal vanishes the triangle's own is taken. The same seed gives the same
  * points. \throws std::invalid_argument with mesh.problem(). */
-PCL_SURFLET_API SurfletSet
-sampleSurface(const TriangleMesh& mesh, std::size_t n, std::uint64_t seed);
+PCL_SURFLET_API SurfletSet sampleSurface(const TriangleMesh& mesh, std::size_t n,
+                                         std::uint64_t seed);
 
 /** \brief Draws a blue-noise (Poisson-disk) sample of about \p target points: no two closer than a
  * common radius, so the surface density is homogeneous ("iso-mesh", [Wahl 2007, Sec. 2.3.1]).
@@ -56,7 +54,7 @@ sampleSurface(const TriangleMesh& mesh, std::size_t n, std::uint64_t seed);
  * Thins an area-uniform sample of sampleSurface(); the count lies within 20 % of \p target whenever
  * the surface allows it. CAD edges are refined first (refineEdges). Deterministic in \p seed.
  * \throws std::invalid_argument with mesh.problem(). */
-PCL_SURFLET_API SurfletSet
-sampleIsoMesh(const TriangleMesh& mesh, std::size_t target, std::uint64_t seed);
+PCL_SURFLET_API SurfletSet sampleIsoMesh(const TriangleMesh& mesh, std::size_t target,
+                                         std::uint64_t seed);
 
 } // namespace pcl_surflet

@@ -1,0 +1,91 @@
+/** \file
+ * The static space representation: an octree that is nothing but an order of the points. */
+#pragma once
+
+#include "pcl_surflet/core/region_index.h"
+
+#include <memory>
+
+namespace pcl_surflet {
+
+/** \brief Instruction sets the search kernels are built for. */
+enum class InstructionSet { Best, Scalar, Avx2, Avx512 };
+
+/** \brief Where points lie in memory: coordinates x, y, z of point i at xyz + i * stride. */
+struct PointArray {
+  const float* x = nullptr;
+  const float* y = nullptr;
+  const float* z = nullptr;
+  std::size_t stride = 1; ///< in floats, between consecutive points
+  std::size_t size = 0;
+};
+
+/** \brief Consecutive places [begin, end) in the order of a LinearOctree. */
+struct PlaceRange {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+};
+
+/** \brief Static octree: points sorted by their Morton key, every node a range of them.
+ *
+ * The keys are those of ch. 4.2 [Wahl 2007]; where the dissertation descends by prefix and visits
+ * all leaves below, here a node also knows the tight box of its points. A node wholly inside the
+ * region is copied without tests, one wholly outside is skipped, and only leaves on the border
+ * (up to Options::leaf_size points) are filtered point by point, 8 or 16 at a time. The points are
+ * copied, as structure of arrays: 16 bytes a point, with nodes below 18. Building is linear.
+ *
+ * Cells that are crowded at the depth of a key (10 levels) get keys of their own, so clusters of
+ * any scale are resolved. Non-finite points are left out.
+ *
+ * Not found worth their cost: 63-bit keys (twice the sorting passes), one child box at a time
+ * (the descent of small queries takes twice as long). */
+class PCL_SURFLET_API LinearOctree : public RegionIndex {
+public:
+  struct Options {
+    std::uint32_t leaf_size = 128; ///< most points of a leaf, at least 1
+    InstructionSet instruction_set = InstructionSet::Best;
+  };
+
+  LinearOctree();
+  ~LinearOctree() override;
+  LinearOctree(LinearOctree&&) noexcept;
+  LinearOctree& operator=(LinearOctree&&) noexcept;
+
+  /** \brief Replaces the content by \p points, or by those of them that \p subset names.
+   *
+   * Results name a point by its number in \p points. The array is not needed afterwards.
+   * \throws std::length_error beyond 2^31 - 1 points
+   * \throws std::out_of_range if \p subset names a point that does not exist */
+  void build(const PointArray& points, const std::vector<PointIndex>* subset = nullptr);
+
+  void setOptions(const Options& options); ///< for the next build()
+  const Options& options() const;
+
+  std::size_t size() const override;
+  std::size_t memoryUsage() const override;
+  void regionSearch(const Position& q, double radius, std::vector<PointIndex>& indices,
+                    std::vector<float>* sqr_distances) const override;
+  void nearestSearch(const Position& q, std::size_t k, std::vector<PointIndex>& indices,
+                     std::vector<float>& sqr_distances) const override;
+  void boxSearch(const Position& low, const Position& high,
+                 std::vector<PointIndex>& indices) const override;
+
+  /** \brief Region search without copying: the ranges of places whose points lie in F(r, q),
+   * ascending and not touching. Read points by indexAt() and positionAt(). */
+  void regionRanges(const Position& q, double radius, std::vector<PlaceRange>& ranges) const;
+
+  PointIndex indexAt(std::uint32_t place) const;   ///< the user's number of the point at \p place
+  Position positionAt(std::uint32_t place) const;  ///< its coordinates
+  const PointIndex* indexData() const;             ///< indexAt() as an array of size()
+  std::array<const float*, 3> coordinates() const; ///< positionAt() as three arrays of size()
+  const char* instructionSetName() const;          ///< "scalar", "avx2" or "avx512"
+
+private:
+  struct Data;
+  std::unique_ptr<Data> data_;
+};
+
+/** \brief Whether this machine can run kernels of \p set. */
+PCL_SURFLET_API bool isSupported(InstructionSet set);
+
+} // namespace pcl_surflet
