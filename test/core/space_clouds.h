@@ -143,6 +143,8 @@ queryCentre(const Cloud& cloud, CounterRandom& random)
 {
   const auto n = static_cast<std::uint32_t>(cloud.points.size());
   Position q = n == 0 ? Position{0, 0, 0} : cloud.points[random.below(n)];
+  if (std::isnan(q[0])) // a removed point
+    q = {0, 0, 0};
   const double away[] = {0, 0, 0.01, 0.3, 1, 5};
   const double reach = away[random.below(6)] * cloud.extent;
   for (auto& v : q)
@@ -161,7 +163,8 @@ queryRadius(const Cloud& cloud, const Position& q, CounterRandom& random)
   if (cloud.points.empty())
     return 1;
   const auto i = random.below(static_cast<std::uint32_t>(cloud.points.size()));
-  return std::sqrt(static_cast<double>(squaredDistance(cloud.points[i], q)));
+  const double distance = std::sqrt(static_cast<double>(squaredDistance(cloud.points[i], q)));
+  return std::isnan(distance) ? cloud.extent / 2 : distance;
 }
 
 /** \brief Every search of \p index equals its definition on \p points; removed points are those
