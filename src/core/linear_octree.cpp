@@ -22,10 +22,11 @@ const RegionKernels&
 kernelsOf(InstructionSet set)
 {
 #ifdef PCL_SURFLET_X86_KERNELS
-  if ((set == InstructionSet::Best || set == InstructionSet::Avx512) &&
+  if ((set == InstructionSet::Automatic || set == InstructionSet::Avx512) &&
       isSupported(InstructionSet::Avx512))
     return kernels::regionKernelsAvx512();
-  if (set != InstructionSet::Scalar && isSupported(InstructionSet::Avx2))
+  if (set != InstructionSet::Scalar && set != InstructionSet::Baseline &&
+      isSupported(InstructionSet::Avx2))
     return kernels::regionKernelsAvx2();
 #endif
   (void)set;
@@ -236,12 +237,13 @@ isSupported(InstructionSet set)
     return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512bw");
 #endif
-  return set == InstructionSet::Best || set == InstructionSet::Scalar;
+  return set == InstructionSet::Automatic || set == InstructionSet::Scalar ||
+         set == InstructionSet::Baseline;
 }
 
 LinearOctree::LinearOctree() : data_(std::make_unique<Data>())
 {
-  data_->kernels = &kernelsOf(InstructionSet::Best);
+  data_->kernels = &kernelsOf(InstructionSet::Automatic);
 }
 
 LinearOctree::~LinearOctree() = default;

@@ -27,14 +27,15 @@ cross(const Vec3& a, const Vec3& b)
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/** \brief Is p2 the origin [Wahl 2007, Eq. 2.2]? \p a = n1.d, \p b = n2.d, d = p2 - p1. */
+/** \brief Is p2 the origin [Wahl 2007, Eq. 2.2]? \p a = n1.d, \p b = n2.d, d = p2 - p1.
+ *
+ * gamma is a/|d| at p1 and -b/|d| at p2. The end with the larger gamma gets the benefit of the
+ * tolerance, so it wins every tie. */
 bool
-originIsSecond(double a, double b, double length)
+originIsSecond(double a, double b)
 {
-  const double difference = std::abs(a) - std::abs(b);
-  if (std::abs(difference) <= kOriginTieTolerance * length)
-    return -b > a; // the end with the larger gamma; gamma is a/|d| at p1, -b/|d| at p2
-  return difference > 0;
+  const double tolerance = a < -b ? -kOriginTieTolerance : kOriginTieTolerance;
+  return a * a > b * b * (1 + tolerance);
 }
 
 } // namespace
@@ -49,7 +50,7 @@ computePairFeature(const Surflet& s1, const Surflet& s2)
   if (!(length > 0) || !std::isfinite(length) || !std::isfinite(dot(n1, n1) + dot(n2, n2)))
     return std::nullopt;
 
-  if (originIsSecond(dot(n1, d), dot(n2, d), length)) {
+  if (originIsSecond(dot(n1, d), dot(n2, d))) {
     std::swap(n1, n2);
     d = p1 - p2;
   }

@@ -1,7 +1,7 @@
 #include "pcl_surflet/core/unrestricted_space.h"
 
 #include "cell_tree_detail.h"
-#include "parallel_for.h"
+#include "pcl_surflet/core/parallel.h"
 
 #include <algorithm>
 #include <cmath>
@@ -223,7 +223,7 @@ UnrestrictedSpace::regionSearch(const Position& q, double radius, std::vector<Po
   };
   std::vector<Part> parts(cubes.size());
   const unsigned threads = points < kParallelPoints ? 1 : options_.threads;
-  detail::parallelFor(cubes.size(), threads, 1, [&](std::size_t i) { // 2: search each
+  parallelFor(cubes.size(), threads, [&](std::size_t i, unsigned) { // 2: search each
     cubes[i]->regionSearch(q, radius, parts[i].indices,
                            sqr_distances ? &parts[i].squares : nullptr);
   });

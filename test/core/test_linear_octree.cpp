@@ -18,7 +18,7 @@ asArray(const std::vector<Position>& points)
 }
 
 LinearOctree
-makeOctree(const std::vector<Position>& points, InstructionSet set = InstructionSet::Best,
+makeOctree(const std::vector<Position>& points, InstructionSet set = InstructionSet::Automatic,
            std::uint32_t leaf_size = LinearOctree::Options().leaf_size)
 {
   LinearOctree octree;

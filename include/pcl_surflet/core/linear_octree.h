@@ -2,14 +2,12 @@
  * The static space representation: an octree that is nothing but an order of the points. */
 #pragma once
 
+#include "pcl_surflet/core/instruction_set.h"
 #include "pcl_surflet/core/region_index.h"
 
 #include <memory>
 
 namespace pcl_surflet {
-
-/** \brief Instruction sets the search kernels are built for. */
-enum class InstructionSet { Best, Scalar, Avx2, Avx512 };
 
 /** \brief Where points lie in memory: coordinates x, y, z of point i at xyz + i * stride. */
 struct PointArray {
@@ -43,7 +41,9 @@ class PCL_SURFLET_API LinearOctree : public RegionIndex {
 public:
   struct Options {
     std::uint32_t leaf_size = 128; ///< most points of a leaf, at least 1
-    InstructionSet instruction_set = InstructionSet::Best;
+    /** \brief Kernels of this octree; there are none for Baseline, which takes the scalar ones, and
+     * sets this machine lacks take the next lower. Results do not depend on it. */
+    InstructionSet instruction_set = InstructionSet::Automatic;
   };
 
   LinearOctree();

@@ -16,11 +16,12 @@ struct PairFeature {
   double delta = 0; ///< |d|, in the unit of the points, > 0 [Wahl 2007, Eq. 2.9]
 };
 
-/** \brief Ends whose |n.d| differ by no more than this share of |d| tie for the origin.
+/** \brief Ends whose (n.d)^2 differ by no more than this share of the smaller one tie for the
+ * origin.
  *
  * Eq. 2.2 leaves the tie open. Parallel normals always tie, but after a rotation in floating point
  * only up to rounding; without a tolerance the sign of gamma would then be chance. */
-constexpr double kOriginTieTolerance = 1e-6;
+constexpr double kOriginTieTolerance = 1e-5;
 
 /** \brief A pair with |d x u|^2 at or below this share of |d|^2 has no feature: v is undefined. */
 constexpr double kCollinearityTolerance = 1e-6;

@@ -1,0 +1,112 @@
+/** \file
+ * Counting the features of all pairs, or of randomly drawn pairs, of a surflet set. */
+#pragma once
+
+#include "pcl_surflet/core/pair_histogram.h"
+#include "pcl_surflet/core/surflet_set.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace pcl_surflet {
+
+/** \brief A surflet set made ready for the pair kernels; immutable, may be shared by threads.
+ *
+ * Centred and scaled by a power of two (toUnitScale), once as columns for streaming and once as
+ * records for random access. Pairs closer than 1e-12 of its extent count as coincident.
+ * At most 2^31 surflets (std::length_error). */
+class PCL_SURFLET_API PairSource {
+public:
+  explicit PairSource(const SurfletSet& set);
+  PairSource(PairSource&&) = default;
+  PairSource& operator=(PairSource&&) = default;
+
+  std::size_t
+  size() const
+  {
+    return unit_.set.size();
+  }
+  /** \brief Length in unit scale per length of the original set. */
+  double
+  scale() const
+  {
+    return unit_.scale;
+  }
+  const SurfletSet&
+  columns() const
+  {
+    return unit_.set;
+  }
+  /** \brief size() records of 8 floats (x y z nx ny nz 0 0), 32-byte aligned. */
+  const float*
+  records() const
+  {
+    return records_;
+  }
+
+private:
+  UnitSurflets unit_;
+  std::vector<float> storage_;
+  const float* records_ = nullptr;
+};
+
+/** \brief Features of all m(m-1)/2 pairs [Wahl 2007, Eq. 2.19]; each unordered pair once.
+ *
+ * \param delta_max in the unit of the set, > 0; longer pairs go to the last delta interval
+ * \param threads 0: all; the result is the same for any number
+ * \throws std::invalid_argument for an unusable resolution or delta_max */
+PCL_SURFLET_API PairHistogram countAllPairs(const PairSource& source, const Resolution& resolution,
+                                            double delta_max, unsigned threads = 0);
+
+/** \brief Features of \p n pairs drawn uniformly, with replacement, from the pairs of different
+ * surflets [Wahl 2007, Sec. 2.3.2]. Pairs without feature count as drawn.
+ *
+ * Pair number i depends on \p seed and i alone. Fewer than two surflets give an empty histogram.
+ * Parameters and errors as in countAllPairs(). */
+PCL_SURFLET_API PairHistogram countDrawnPairs(const PairSource& source,
+                                              const Resolution& resolution, double delta_max,
+                                              std::uint64_t n, std::uint64_t seed,
+                                              unsigned threads = 0);
+
+/** \brief Features of \p n pairs (i, i + s mod m) of the shuffled set, for shifts s drawn at
+ * random.
+ *
+ * About twice as fast as countDrawnPairs() because memory is read in order. Every surflet takes
+ * part equally often (up to one), so the counts scatter less than those of independent pairs; but
+ * pairs repeat as soon as a shift is drawn twice, so use it for n well below m^2 / 2. Parameters
+ * and errors as in countAllPairs(). */
+PCL_SURFLET_API PairHistogram countStreamedPairs(const PairSource& source,
+                                                 const Resolution& resolution, double delta_max,
+                                                 std::uint64_t n, std::uint64_t seed,
+                                                 unsigned threads = 0);
+
+/** \brief Drawn features as far as models of one angular resolution need them: each model maps
+ * delta with its own delta_max [Wahl 2007, Eq. 3.4]. */
+struct PCL_SURFLET_API FeatureSample {
+  Resolution resolution;
+  std::vector<std::uint32_t> angular_bin; ///< bin of (alpha, beta, gamma), < angularBins()
+  std::vector<float> delta_squared;       ///< squared distance, times scale^2
+  double scale = 1;
+  std::uint64_t rejected = 0; ///< pairs drawn without feature
+
+  std::size_t
+  size() const
+  {
+    return delta_squared.size();
+  }
+  /** \brief Linear bin of every feature for a model of \p delta_max. */
+  void bins(double delta_max, std::vector<std::uint32_t>& out) const;
+};
+
+/** \brief Draws the same pairs as countDrawnPairs() and keeps their features, in drawing order. */
+PCL_SURFLET_API FeatureSample drawFeatures(const PairSource& source, const Resolution& resolution,
+                                           std::uint64_t n, std::uint64_t seed,
+                                           unsigned threads = 1);
+
+/** \brief Indices of the drawn pairs number \p first ... \p first + n - 1 among \p m surflets (m >=
+ * 2), the same pairs that countDrawnPairs() and drawFeatures() draw with that seed. */
+PCL_SURFLET_API std::vector<std::pair<std::uint32_t, std::uint32_t>>
+drawPairs(std::size_t m, std::uint64_t n, std::uint64_t seed, std::uint64_t first = 0);
+
+} // namespace pcl_surflet

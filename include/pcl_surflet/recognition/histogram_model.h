@@ -1,0 +1,46 @@
+/** \file
+ * The model of one object: one or several surflet-pair histograms and a few lengths. */
+#pragma once
+
+#include "pcl_surflet/core/pair_histogram.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+
+/** \brief Is a model something to find, or background to be told from it [Wahl 2007, Sec. 5.4]? */
+enum class ModelRole { Object, Background };
+
+/** \brief One histogram of a model and the condition it was trained under. */
+struct ModelMember {
+  std::string condition;        ///< e.g. "complete", "noise 1 %"; at most 63 bytes
+  std::vector<float> histogram; ///< H(b) [Wahl 2007, Eq. 2.23]: >= 0, sum 1
+  std::uint64_t features = 0;   ///< number of features counted
+};
+
+/** \brief Model M = (H, delta_max, r_mean, r_max) [Wahl 2007, Eq. 2.24] with r_min (Eq. 6.1).
+ *
+ * Lengths are in the unit of the training data. A model may hold several histograms, trained under
+ * different conditions; its response to a query is that of its best member. */
+struct PCL_SURFLET_API HistogramModel {
+  static constexpr std::size_t kMaxLabelBytes = 63;
+
+  std::string label; ///< 1 to 63 bytes without control characters; unique in a database
+  ModelRole role = ModelRole::Object;
+  Resolution resolution;
+  double delta_max = 0;    ///< largest distance between two surflets, exact
+  double r_mean = 0;       ///< mean distance of a surflet to the centroid
+  double r_max = 0;        ///< largest distance of a surflet to the centroid
+  double r_min = 0;        ///< smallest distance of a surflet to the centroid
+  double surface_area = 0; ///< 0 if unknown (trained from points)
+  std::vector<ModelMember> members;
+
+  /** \brief Empty if the model is usable, else what is wrong: checks label, resolution, lengths
+   * (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of every member size, values and sum. */
+  std::string
+  problem() const;
+};
+
+} // namespace pcl_surflet
