@@ -179,13 +179,21 @@ surfaceDensity(const SurfletSet& set, std::uint64_t seed)
   for (std::size_t k = 0; k < std::min(kSamples, points.size()); ++k)
     squared.push_back(
         eighthNeighbour(points, random.below(static_cast<std::uint32_t>(points.size()))));
+  // Every sample stands for an area in proportion to its squared spacing: weighted by that, quantiles
+  // are shares of the surface, so that a sparse half with few surflets still counts as a half.
   std::sort(squared.begin(), squared.end());
-  const auto quantile = [&](double q) { return squared[static_cast<std::size_t>(q * double(squared.size() - 1))]; };
+  const double total = std::accumulate(squared.begin(), squared.end(), 0.0);
+  const auto quantile = [&](double share) {
+    double sum = 0;
+    for (const double s : squared)
+      if ((sum += s) >= share * total)
+        return s;
+    return squared.back();
+  };
   density.spacing = std::sqrt(quantile(0.5)) / unit.scale;
   density.widest = std::sqrt(quantile(0.95)) / unit.scale;
   // Duplicates have neighbours at distance 0.
-  const double smallest = std::max(quantile(0.1), 1e-14);
-  density.contrast = std::max(1.0, quantile(0.9) / smallest);
+  density.contrast = std::max(1.0, quantile(0.9) / std::max(quantile(0.1), 1e-14));
   return density;
 }
 

@@ -44,8 +44,8 @@ const std::vector<Criterion>&
 allCriteria()
 {
   static const std::vector<Criterion> all = {
-      Criterion::SquaredEuclidean, Criterion::Intersection, Criterion::ChiSquared1,
-      Criterion::ChiSquared2,      Criterion::KullbackLeibler, Criterion::Likelihood,
+      Criterion::SquaredEuclidean,    Criterion::Intersection,    Criterion::ChiSquared1,
+      Criterion::ChiSquared2,         Criterion::KullbackLeibler, Criterion::Likelihood,
       Criterion::NormalizedLikelihood};
   return all;
 }

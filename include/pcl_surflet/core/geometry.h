@@ -15,23 +15,22 @@ namespace pcl_surflet {
  * Searches a k-d tree for the farthest point of each surflet that can be an end of the longest
  * pair, best candidates first: far below O(n^2) unless all surflets lie on one sphere about their
  * centroid, where about one in ten pairs is still looked at. */
-PCL_SURFLET_API double
-farthestDistance(const SurfletSet& set);
+PCL_SURFLET_API double farthestDistance(const SurfletSet& set);
 
 /** \brief How evenly the surflets cover their surface. */
 struct SurfaceDensity {
-  double spacing = 0;  ///< median distance to the eighth neighbour
-  double widest = 0;   ///< 95 % of the surflets have their eighth neighbour within this
-  double contrast = 1; ///< densest to sparsest tenth: ratio of surface densities, >= 1
+  double spacing = 0;  ///< distance to the eighth neighbour, median over the surface
+  double widest = 0;   ///< on 95 % of the surface the eighth neighbour is within this
+  double contrast = 1; ///< ratio of surface densities, densest to sparsest tenth of the
+                       ///< surface, >= 1
 };
 
-/** \brief Surflets per area vary by chance: independent uniform draws reach a contrast of about 2.5,
- * evenly spread ones less. From this contrast on a set counts as uneven. */
+/** \brief Surflets per area vary by chance: independent uniform draws reach a contrast of
+ * about 2.5, evenly spread ones less. From this contrast on a set counts as uneven. */
 constexpr double kUnevenContrast = 5.0;
 
 /** \brief Estimates the density from at most 256 surflets (deterministic in \p seed) and their
  * eighth neighbours; trivial (contrast 1) for fewer than 32 surflets. */
-PCL_SURFLET_API SurfaceDensity
-surfaceDensity(const SurfletSet& set, std::uint64_t seed = 1);
+PCL_SURFLET_API SurfaceDensity surfaceDensity(const SurfletSet& set, std::uint64_t seed = 1);
 
 } // namespace pcl_surflet

@@ -22,45 +22,34 @@ enum class Criterion {
   NormalizedLikelihood ///< sum of ln H of the features / sum of ln H of the bins, Eq. 3.18; smaller
 };
 
-PCL_SURFLET_API bool
-smallerIsBetter(Criterion criterion);
+PCL_SURFLET_API bool smallerIsBetter(Criterion criterion);
 
 /** \brief Name used by the apps: euclidean, intersection, chi1, chi2, kullback, likelihood,
  * normalized. */
-PCL_SURFLET_API const char*
-criterionName(Criterion criterion);
-PCL_SURFLET_API std::optional<Criterion>
-criterionByName(const std::string& name);
+PCL_SURFLET_API const char* criterionName(Criterion criterion);
+PCL_SURFLET_API std::optional<Criterion> criterionByName(const std::string& name);
 /** \brief All criteria, in the order of the enumeration. */
-PCL_SURFLET_API const std::vector<Criterion>&
-allCriteria();
+PCL_SURFLET_API const std::vector<Criterion>& allCriteria();
 
 using Histogram = std::vector<double>;
 
 /** \name Criteria between two normalised histograms of equal size
  * H must be free of zeros (penalize()) for ChiSquared1, KullbackLeibler and the likelihoods. */
 ///@{
-PCL_SURFLET_API double
-squaredEuclidean(const Histogram& h, const Histogram& q);
-PCL_SURFLET_API double
-intersection(const Histogram& h, const Histogram& q);
-PCL_SURFLET_API double
-chiSquared1(const Histogram& h, const Histogram& q);
+PCL_SURFLET_API double squaredEuclidean(const Histogram& h, const Histogram& q);
+PCL_SURFLET_API double intersection(const Histogram& h, const Histogram& q);
+PCL_SURFLET_API double chiSquared1(const Histogram& h, const Histogram& q);
 /** \brief Bins empty in both contribute nothing. */
-PCL_SURFLET_API double
-chiSquared2(const Histogram& h, const Histogram& q);
-/** \brief Where Q is zero its limit is taken (Q ln Q = 0) and ln Q is floored at ln \p h_min: such a
- * bin contributes H ln (H / h_min). */
-PCL_SURFLET_API double
-kullbackLeibler(const Histogram& h, const Histogram& q, double h_min);
+PCL_SURFLET_API double chiSquared2(const Histogram& h, const Histogram& q);
+/** \brief Where Q is zero its limit is taken (Q ln Q = 0) and ln Q is floored at ln \p h_min: such
+ * a bin contributes H ln (H / h_min). */
+PCL_SURFLET_API double kullbackLeibler(const Histogram& h, const Histogram& q, double h_min);
 /** \brief Mean of ln H over the features of Q. \p log_h holds ln H. */
-PCL_SURFLET_API double
-meanLogLikelihood(const Histogram& log_h, const Histogram& q);
+PCL_SURFLET_API double meanLogLikelihood(const Histogram& log_h, const Histogram& q);
 ///@}
 
 /** \brief Smallest positive value, or 0 if there is none. */
-PCL_SURFLET_API double
-smallestPositive(const Histogram& h);
+PCL_SURFLET_API double smallestPositive(const Histogram& h);
 
 /** \brief Penalty term [Wahl 2007, Eq. 3.20-3.22]: zero bins become \p h_min and the others are
  * multiplied by (1 - eta h_min), eta = number of zero bins, so that the sum stays 1.
@@ -69,7 +58,6 @@ smallestPositive(const Histogram& h);
  * otherwise a rare feature would count for less than an impossible one, and the bins above share
  * what is left. \p h_min must be positive and below 1 / number of bins, else
  * std::invalid_argument. */
-PCL_SURFLET_API Histogram
-penalize(const Histogram& h, double h_min);
+PCL_SURFLET_API Histogram penalize(const Histogram& h, double h_min);
 
 } // namespace pcl_surflet

@@ -38,9 +38,9 @@ struct PCL_SURFLET_API HistogramModel {
   std::vector<ModelMember> members;
 
   /** \brief Empty if the model is usable, else what is wrong: checks label, resolution, lengths
-   * (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of every member size, values and sum. */
-  std::string
-  problem() const;
+   * (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of every member size,
+   * values and sum. */
+  std::string problem() const;
 };
 
 } // namespace pcl_surflet

@@ -38,18 +38,16 @@ class PCL_SURFLET_API HistogramModelTrainer {
 public:
   /** \brief Bins per dimension, default 5,5,5,5.
    * \throws std::invalid_argument for an unusable resolution */
-  void
-  setResolution(const Resolution& resolution);
+  void setResolution(const Resolution& resolution);
   const Resolution&
   getResolution() const
   {
     return resolution_;
   }
 
-  /** \brief Number of pairs drawn from a cloud, k, default 10,000,000. A cloud that has no more pairs
-   * than that is trained with all of them. \throws std::invalid_argument if 0 */
-  void
-  setNumberOfPairs(std::uint64_t pairs);
+  /** \brief Number of pairs drawn from a cloud, k, default 10,000,000. A cloud that has no more
+   * pairs than that is trained with all of them. \throws std::invalid_argument if 0 */
+  void setNumberOfPairs(std::uint64_t pairs);
   /** \brief Random seed, default 1. */
   void
   setSeed(std::uint64_t seed)
@@ -74,29 +72,25 @@ public:
   {
     role_ = role;
   }
-  /** \brief Surflets per sampling of a mesh, default 4500 (the dissertation: 3,500-5,500), and number of
-   * samplings, default 5. \throws std::invalid_argument if below 2 or 1 */
-  void
-  setMeshSampling(std::size_t surflets, unsigned samplings);
+  /** \brief Surflets per sampling of a mesh, default 4500 (the dissertation: 3,500-5,500), and
+   * number of samplings, default 5. \throws std::invalid_argument if below 2 or 1 */
+  void setMeshSampling(std::size_t surflets, unsigned samplings);
 
   /** \brief Trains from an oriented cloud: k drawn pairs, or all if there are no more.
    *
    * \param label 1 to 63 bytes
    * \param surflets at least three that do not all coincide; density see setUnevenDensity()
    * \throws TrainingError if no model can be made of them */
-  HistogramModel
-  train(const std::string& label, const SurfletSet& surflets) const;
+  HistogramModel train(const std::string& label, const SurfletSet& surflets) const;
 
-  /** \brief Trains from a mesh: several independent iso-samplings (sampleIsoMesh()), all pairs of each,
-   * histograms added bin by bin, then normalised.
-   * \throws TrainingError with TriangleMesh::problem() */
-  HistogramModel
-  train(const std::string& label, const TriangleMesh& mesh) const;
+  /** \brief Trains from a mesh: several independent iso-samplings (sampleIsoMesh()), all pairs of
+   * each, histograms added bin by bin, then normalised. \throws TrainingError with
+   * TriangleMesh::problem() */
+  HistogramModel train(const std::string& label, const TriangleMesh& mesh) const;
 
 private:
-  HistogramModel
-  finish(const std::string& label, const PairHistogram& histogram, const SurfletSet& surflets,
-         double delta_max, double area) const;
+  HistogramModel finish(const std::string& label, const PairHistogram& histogram,
+                        const SurfletSet& surflets, double delta_max, double area) const;
 
   Resolution resolution_;
   std::uint64_t pairs_ = 10000000;
