@@ -59,11 +59,11 @@ class OctreeRegionSearch : public pcl::search::Search<PointT> {
 public:
   using Ptr = pcl::shared_ptr<OctreeRegionSearch<PointT>>;
   using ConstPtr = pcl::shared_ptr<const OctreeRegionSearch<PointT>>;
+  using Base::nearestKSearch;
+  using Base::radiusSearch;
   using typename Base::IndicesConstPtr;
   using typename Base::PointCloud;
   using typename Base::PointCloudConstPtr;
-  using Base::nearestKSearch;
-  using Base::radiusSearch;
 
   enum Backend { Octree, AVL, Linear };
 
@@ -147,8 +147,8 @@ public:
    * \throws pcl::PCLException with the Linear backend */
   void getCellsInRadius(const PointT& point, double radius, std::vector<Cell>& cells) const;
 
-  std::size_t size() const;        ///< number of points that can be found
-  std::size_t memoryUsage() const; ///< bytes beside the cloud
+  std::size_t size() const;                 ///< number of points that can be found
+  std::size_t memoryUsage() const;          ///< bytes beside the cloud
   const LinearOctree* linearOctree() const; ///< null with a dynamic backend
 
 protected:

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -12,7 +11,6 @@ namespace pcl_surflet {
 
 namespace {
 
-using kernels::kLeafChild;
 using kernels::RegionKernels;
 using kernels::RegionNode;
 using kernels::RegionQuery;
@@ -38,13 +36,13 @@ kernelsOf(InstructionSet set)
  * Vectors grow by insertion of whole blocks: resizing them beforehand would fill them with zeros
  * first, which costs small queries more than the search. */
 struct ResultBuffers {
-  static constexpr std::uint32_t kCapacity = 1024;
+  static constexpr std::uint32_t kCapacity = 2 * kernels::kShortRange;
 
   std::vector<PointIndex>* indices = nullptr;
   std::vector<float>* squares = nullptr;
   const PointIndex* source = nullptr; ///< indices in the order of the tree
-  PointIndex index[kCapacity + kernels::kRegionSlack];
-  float square[kCapacity + kernels::kRegionSlack];
+  PointIndex index[kCapacity + kernels::kBlock];
+  float square[kCapacity + kernels::kBlock];
 
   RegionSink
   sink()
@@ -66,41 +64,35 @@ struct ResultBuffers {
   appendRange(RegionSink& sink, std::uint32_t begin, std::uint32_t count)
   {
     auto& self = *static_cast<ResultBuffers*>(sink.context);
-    if (sink.size + count > sink.capacity)
-      flush(sink);
-    if (count > sink.capacity) {
-      self.indices->insert(self.indices->end(), self.source + begin, self.source + begin + count);
-      return;
-    }
-    std::memcpy(sink.index + sink.size, self.source + begin, count * sizeof(PointIndex));
-    sink.size += count;
+    flush(sink);
+    self.indices->insert(self.indices->end(), self.source + begin, self.source + begin + count);
   }
 };
 
 /** \brief Joins places and ranges of places, which arrive in ascending order, into ranges. */
 struct RangeBuffers {
-  static constexpr std::uint32_t kCapacity = 512;
+  static constexpr std::uint32_t kCapacity = kernels::kShortRange;
 
   std::vector<PlaceRange>* ranges = nullptr;
-  PointIndex place[kCapacity + kernels::kRegionSlack];
-
-  void
-  append(std::uint32_t begin, std::uint32_t end)
-  {
-    if (!ranges->empty() && ranges->back().end == begin)
-      ranges->back().end = end;
-    else
-      ranges->push_back({begin, end});
-  }
+  PointIndex place[kCapacity + kernels::kBlock];
 
   static void
   flush(RegionSink& sink)
   {
-    auto& self = *static_cast<RangeBuffers*>(sink.context);
+    auto& ranges = *static_cast<RangeBuffers*>(sink.context)->ranges;
+    PlaceRange joined[kCapacity + 1];
+    joined[0] = ranges.empty() ? PlaceRange{0, 0} : ranges.back();
+    std::uint32_t last = 0; // no branch on whether a place continues the last range
     for (std::uint32_t i = 0; i < sink.size; ++i) {
       const auto at = static_cast<std::uint32_t>(sink.index[i]);
-      self.append(at, at + 1);
+      const bool fresh = at != joined[last].end || joined[last].end == 0;
+      last += fresh;
+      joined[last].begin = fresh ? at : joined[last].begin;
+      joined[last].end = at + 1;
     }
+    if (!ranges.empty())
+      ranges.back() = joined[0];
+    ranges.insert(ranges.end(), joined + 1, joined + 1 + last);
     sink.size = 0;
   }
 
@@ -108,7 +100,11 @@ struct RangeBuffers {
   appendRange(RegionSink& sink, std::uint32_t begin, std::uint32_t count)
   {
     flush(sink);
-    static_cast<RangeBuffers*>(sink.context)->append(begin, begin + count);
+    auto& ranges = *static_cast<RangeBuffers*>(sink.context)->ranges;
+    if (!ranges.empty() && ranges.back().end == begin)
+      ranges.back().end = begin + count;
+    else
+      ranges.push_back({begin, begin + count});
   }
 };
 
@@ -142,25 +138,27 @@ public:
   }
 
 private:
-  static constexpr std::uint32_t kCapacity = 256;
+  static constexpr std::uint32_t kCapacity = kernels::kShortRange;
 
   void
   descend(const RegionNode& node)
   {
-    float square[8];
-    int order[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    float square[kernels::kFanOut];
+    unsigned order[kernels::kFanOut] = {0, 1, 2, 3, 4, 5, 6, 7};
     kernel_.boxes(node, query_.q, square);
-    std::sort(order, order + 8,
-              [&](int a, int b) { return square[a] != square[b] ? square[a] < square[b] : a < b; });
-    for (const int c : order) {
+    std::sort(order, order + kernels::kFanOut, [&](unsigned a, unsigned b) {
+      return square[a] != square[b] ? square[a] < square[b] : a < b;
+    });
+    for (const unsigned c : order) {
       if (!(square[c] <= query_.square)) // equal distances compete by index: do not prune them
         return;
-      if (node.child[c] == kLeafChild) {
-        kernel_.leaf(tree_, query_, node.begin[c], node.count[c], sink_);
+      if (node.child != 0)
+        descend(tree_.nodes[node.child + c]);
+      else {
+        kernel_.run(tree_, query_, node.begin + (c == 0 ? 0u : node.cut[c - 1]),
+                    node.begin + node.cut[c], sink_);
         flush(sink_);
       }
-      else
-        descend(tree_.nodes[node.child[c]]);
     }
   }
 
@@ -190,35 +188,41 @@ private:
   }
 
   const RegionKernels& kernel_;
-  const kernels::RegionTree tree_;
+  const kernels::RegionTree& tree_;
   const std::size_t k_;
   RegionQuery query_;
   RegionSink sink_;
   std::vector<Candidate> best_;
-  PointIndex index_[kCapacity + kernels::kRegionSlack];
-  float square_[kCapacity + kernels::kRegionSlack];
+  PointIndex index_[kCapacity + kernels::kBlock];
+  float square_[kCapacity + kernels::kBlock];
 };
 
-/** \brief Appends the points of \p node in the box [low, high]. */
+/** \brief Appends the points of a node, which ends at \p end, in the box [low, high]. */
 void
-collectBox(const kernels::RegionTree& tree, const RegionNode& node, const Position& low,
-           const Position& high, std::vector<PointIndex>& indices)
+collectBox(const kernels::RegionTree& tree, const RegionNode& node, std::uint32_t end,
+           const Position& low, const Position& high, std::vector<PointIndex>& indices)
 {
-  for (int c = 0; c < 8; ++c) {
-    bool reached = node.count[c] > 0, inside = true;
+  const RegionNode* const children = tree.nodes + node.child;
+  for (unsigned c = 0; c < kernels::kFanOut; ++c) {
+    bool reached = node.low[0][c] <= node.high[0][c], inside = true; // else there is no child
     for (int a = 0; a < 3; ++a) {
       reached = reached && node.low[a][c] <= high[a] && low[a] <= node.high[a][c];
       inside = inside && low[a] <= node.low[a][c] && node.high[a][c] <= high[a];
     }
-    const std::uint32_t begin = node.begin[c], end = begin + node.count[c];
     if (!reached)
       continue;
+    const bool bottom = node.child == 0;
+    const std::uint32_t first =
+        bottom ? node.begin + (c == 0 ? 0u : node.cut[c - 1]) : children[c].begin;
+    const std::uint32_t last = bottom                 ? node.begin + node.cut[c]
+                               : c + 1u < node.cut[0] ? children[c + 1].begin
+                                                      : end;
     if (inside)
-      indices.insert(indices.end(), tree.index + begin, tree.index + end);
-    else if (node.child[c] != kLeafChild)
-      collectBox(tree, tree.nodes[node.child[c]], low, high, indices);
+      indices.insert(indices.end(), tree.index + first, tree.index + last);
+    else if (!bottom)
+      collectBox(tree, children[c], last, low, high, indices);
     else
-      for (std::uint32_t i = begin; i < end; ++i)
+      for (std::uint32_t i = first; i < last; ++i)
         if (low[0] <= tree.x[i] && tree.x[i] <= high[0] && low[1] <= tree.y[i] &&
             tree.y[i] <= high[1] && low[2] <= tree.z[i] && tree.z[i] <= high[2])
           indices.push_back(tree.index[i]);
@@ -266,14 +270,7 @@ LinearOctree::options() const
 void
 LinearOctree::build(const PointArray& points, const std::vector<PointIndex>* subset)
 {
-  detail::LinearOctreeBuilder builder(points, data_->options.leaf_size);
-  builder.sortPoints(subset);
-  data_->size = builder.size();
-  data_->x = std::move(builder.x);
-  data_->y = std::move(builder.y);
-  data_->z = std::move(builder.z);
-  data_->index = std::move(builder.index);
-  data_->nodes = std::move(builder.nodes);
+  detail::LinearOctreeBuilder(*data_, points).build(subset);
 }
 
 std::size_t
@@ -305,7 +302,7 @@ LinearOctree::regionSearch(const Position& q, double radius, std::vector<PointIn
   buffers.source = data_->index.data();
   RegionSink sink = buffers.sink();
   const RegionQuery query = {{q[0], q[1], q[2]}, squaredRadius(radius)};
-  (sqr_distances ? data_->kernels->distances : data_->kernels->indices)(data_->view(), query, sink);
+  (sqr_distances ? data_->kernels->distances : data_->kernels->indices)(data_->tree, query, sink);
   ResultBuffers::flush(sink);
 }
 
@@ -325,7 +322,7 @@ LinearOctree::regionRanges(const Position& q, double radius, std::vector<PlaceRa
                      RangeBuffers::flush,
                      RangeBuffers::appendRange};
   const RegionQuery query = {{q[0], q[1], q[2]}, squaredRadius(radius)};
-  data_->kernels->positions(data_->view(), query, sink);
+  data_->kernels->positions(data_->tree, query, sink);
   RangeBuffers::flush(sink);
 }
 
@@ -337,7 +334,7 @@ LinearOctree::nearestSearch(const Position& q, std::size_t k, std::vector<PointI
   sqr_distances.clear();
   if (data_->size == 0 || k == 0 || !isFinite(q))
     return;
-  NearestSearch search(*data_->kernels, data_->view(), q, std::min(k, data_->size));
+  NearestSearch search(*data_->kernels, data_->tree, q, std::min(k, data_->size));
   for (const auto& [square, index] : search.run()) {
     indices.push_back(index);
     sqr_distances.push_back(square);
@@ -350,7 +347,7 @@ LinearOctree::boxSearch(const Position& low, const Position& high,
 {
   indices.clear();
   if (data_->size > 0)
-    collectBox(data_->view(), data_->nodes[0], low, high, indices);
+    collectBox(data_->tree, data_->nodes[0], data_->tree.size, low, high, indices);
 }
 
 PointIndex

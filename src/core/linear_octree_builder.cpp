@@ -18,15 +18,6 @@ Box::Box()
   }
 }
 
-void
-Box::add(const Box& other)
-{
-  for (int a = 0; a < 3; ++a) {
-    low[a] = std::min(low[a], other.low[a]);
-    high[a] = std::max(high[a], other.high[a]);
-  }
-}
-
 namespace {
 
 /** \brief Smallest and largest of \p n values; eight independent chains, so that the compiler may
@@ -59,9 +50,9 @@ minMax(const float* v, std::size_t n, float& low, float& high)
 struct Slices {
   float origin, scale;
 
-  Slices(float low, float extent)
+  Slices(float low, float half_extent)
       : origin(0.5f * low),
-        scale(std::min(1023.99f / (0.5f * extent), std::numeric_limits<float>::max()))
+        scale(std::min(1023.99f / half_extent, std::numeric_limits<float>::max()))
   {
   }
   std::uint32_t
@@ -70,6 +61,9 @@ struct Slices {
     return std::min(static_cast<std::uint32_t>((0.5f * v - origin) * scale), 1023u);
   }
 };
+
+/** \brief Below this a radix sort is slower than clearing its counters. */
+constexpr std::size_t kSmallSort = 1024;
 
 /** \brief Moves bit i of the low 10 bits to bit 3 i. */
 std::uint32_t
@@ -83,15 +77,40 @@ spread10(std::uint32_t v)
 
 } // namespace
 
-LinearOctreeBuilder::LinearOctreeBuilder(const PointArray& points, std::uint32_t leaf_size)
-    : points_(points), leaf_size_(std::max(leaf_size, 1u))
+LinearOctreeBuilder::LinearOctreeBuilder(LinearOctree::Data& data, const PointArray& points)
+    : data_(data), points_(points)
 {
   if (points.size > static_cast<std::size_t>(std::numeric_limits<PointIndex>::max()))
     throw std::length_error("LinearOctree: more than 2^31 - 1 points");
 }
 
 void
-LinearOctreeBuilder::sortPoints(const std::vector<PointIndex>* subset)
+LinearOctreeBuilder::build(const std::vector<PointIndex>* subset)
+{
+  takePoints(subset);
+  data_.size = items_.size();
+  const std::size_t padded = (data_.size + kernels::kBlock - 1) / kernels::kBlock * kernels::kBlock;
+  for (auto* v : {&data_.x, &data_.y, &data_.z}) {
+    std::vector<float>(padded).swap(*v);
+    std::fill(v->begin() + static_cast<std::ptrdiff_t>(data_.size), v->end(),
+              std::numeric_limits<float>::infinity());
+  }
+  std::vector<PointIndex>(padded).swap(data_.index);
+  data_.nodes.clear();
+  if (data_.size == 0)
+    return;
+  gather(0, data_.size);
+  sortRange(0, data_.size);
+  data_.nodes.reserve(data_.size / (kernels::kBottomSize / 2) + 1);
+  data_.nodes.resize(1);
+  fillNode(0, 0, static_cast<std::uint32_t>(data_.size));
+  data_.nodes.shrink_to_fit();
+  data_.tree = {data_.x.data(),     data_.y.data(),     data_.z.data(),
+                data_.index.data(), data_.nodes.data(), static_cast<std::uint32_t>(data_.size)};
+}
+
+void
+LinearOctreeBuilder::takePoints(const std::vector<PointIndex>* subset)
 {
   const std::size_t n = subset ? subset->size() : points_.size;
   items_.resize(n);
@@ -107,42 +126,41 @@ LinearOctreeBuilder::sortPoints(const std::vector<PointIndex>* subset)
     kept += points_.x[at] * 0 + points_.y[at] * 0 + points_.z[at] * 0 == 0;
   }
   items_.resize(kept);
-  for (auto* v : {&x, &y, &z})
-    v->resize(kept + kernels::kRegionSlack);
-  index.resize(kept + kernels::kRegionSlack);
-  if (kept == 0)
-    return;
-  gather(0, kept);
-  sortRange(0, kept, boxOf(0, kept));
-  makeNodes();
-  items_ = {};
-  scratch_ = {};
 }
 
 Box
 LinearOctreeBuilder::boxOf(std::size_t begin, std::size_t end) const
 {
   Box box;
-  const float* const v[3] = {x.data() + begin, y.data() + begin, z.data() + begin};
+  const float* const v[3] = {data_.x.data(), data_.y.data(), data_.z.data()};
   for (int a = 0; a < 3; ++a)
-    minMax(v[a], end - begin, box.low[a], box.high[a]);
+    minMax(v[a] + begin, end - begin, box.low[a], box.high[a]);
   return box;
 }
 
-/** \brief Keys of the points in [begin, end), whose arrays are filled, and everything sorted by
- * them. One scale for all axes: cells are cubes. */
+/** \brief Sorts the points in [begin, end), whose arrays are filled, by their key relative to their
+ * box. One scale for all axes: cells are cubes. */
 void
-LinearOctreeBuilder::sortRange(std::size_t begin, std::size_t end, const Box& box)
+LinearOctreeBuilder::sortRange(std::size_t begin, std::size_t end)
 {
+  const Box box = boxOf(begin, end);
   float half = 0;
   for (int a = 0; a < 3; ++a)
     half = std::max(half, 0.5f * box.high[a] - 0.5f * box.low[a]);
+  if (!(half > 0))
+    return; // all at one place
   const Slices sx(box.low[0], half), sy(box.low[1], half), sz(box.low[2], half);
   std::vector<Item> part(end - begin);
   for (std::size_t i = begin; i < end; ++i)
-    part[i - begin] = {spread10(sx(x[i])) | spread10(sy(y[i])) << 1 | spread10(sz(z[i])) << 2,
+    part[i - begin] = {spread10(sx(data_.x[i])) | spread10(sy(data_.y[i])) << 1 |
+                           spread10(sz(data_.z[i])) << 2,
                        items_[i].index};
-  radixSort(part, scratch_, 3 * kDepth);
+  if (part.size() < kSmallSort)
+    std::sort(part.begin(), part.end(), [](const Item& a, const Item& b) {
+      return a.key != b.key ? a.key < b.key : a.index < b.index;
+    });
+  else
+    radixSort(part, scratch_, 3 * kDepth);
   std::copy(part.begin(), part.end(), items_.begin() + static_cast<std::ptrdiff_t>(begin));
   gather(begin, end);
 }
@@ -153,105 +171,116 @@ LinearOctreeBuilder::gather(std::size_t begin, std::size_t end)
 {
   for (std::size_t i = begin; i < end; ++i) {
     const std::size_t at = items_[i].index * points_.stride;
-    x[i] = points_.x[at];
-    y[i] = points_.y[at];
-    z[i] = points_.z[at];
-    index[i] = static_cast<PointIndex>(items_[i].index);
+    data_.x[i] = points_.x[at];
+    data_.y[i] = points_.y[at];
+    data_.z[i] = points_.z[at];
+    data_.index[i] = static_cast<PointIndex>(items_[i].index);
+  }
+}
+
+bool
+LinearOctreeBuilder::hasOneKey(std::uint32_t begin, std::uint32_t end) const
+{
+  return items_[begin].key == items_[end - 1].key;
+}
+
+/** \brief Where the sorted range [begin, end) falls into the two halves of its smallest cell, a
+ * third of a digit: the place of the highest bit in which its keys differ. */
+std::uint32_t
+LinearOctreeBuilder::middle(std::uint32_t begin, std::uint32_t end) const
+{
+  if (hasOneKey(begin, end))
+    return begin + (end - begin) / 2;
+  std::uint32_t bit = std::uint32_t{1} << (3 * kDepth - 1);
+  const std::uint32_t different = items_[begin].key ^ items_[end - 1].key;
+  while (!(different & bit))
+    bit >>= 1;
+  const auto upper = std::partition_point(items_.begin() + begin, items_.begin() + end,
+                                          [bit](const Item& i) { return !(i.key & bit); });
+  return static_cast<std::uint32_t>(upper - items_.begin());
+}
+
+/** \brief Cuts [begin, end) into up to eight parts, always halving the fullest, while that has more
+ * than \p enough points. Cells of one key are left whole, to be sorted anew, unless the range is
+ * such a cell itself. \return number of parts; part i is [cuts[i], cuts[i + 1]) */
+int
+LinearOctreeBuilder::cutRange(std::uint32_t begin, std::uint32_t end, std::uint32_t enough,
+                              std::uint32_t* cuts) const
+{
+  const bool bottom = end - begin <= kernels::kBottomSize, one_key = hasOneKey(begin, end);
+  cuts[0] = begin;
+  cuts[1] = end;
+  int parts = 1;
+  for (; parts < static_cast<int>(kernels::kFanOut); ++parts) {
+    int fullest = -1;
+    std::uint32_t most = enough;
+    for (int i = 0; i < parts; ++i)
+      if (cuts[i + 1] - cuts[i] > most && (bottom || one_key || !hasOneKey(cuts[i], cuts[i + 1]))) {
+        most = cuts[i + 1] - cuts[i];
+        fullest = i;
+      }
+    if (fullest < 0)
+      break;
+    const std::uint32_t cut = middle(cuts[fullest], cuts[fullest + 1]);
+    std::copy_backward(cuts + fullest + 1, cuts + parts + 1, cuts + parts + 2);
+    cuts[fullest + 1] = cut;
+  }
+  return parts;
+}
+
+/** \brief Makes the node over [begin, end) and everything below it; siblings lie side by side. */
+void
+LinearOctreeBuilder::fillNode(std::size_t node, std::uint32_t begin, std::uint32_t end)
+{
+  // Crowded at the depth of a key: a key relative to the box of these points tells them apart,
+  // unless they are duplicates; those are cut anywhere.
+  if (end - begin > kernels::kBlock && hasOneKey(begin, end))
+    sortRange(begin, end);
+  const bool bottom = end - begin <= kernels::kBottomSize;
+  std::uint32_t cuts[kernels::kFanOut + 1];
+  const int parts = cutRange(begin, end, bottom ? kernels::kBlock : kernels::kBottomSize, cuts);
+  const std::size_t first_child = data_.nodes.size();
+  if (!bottom)
+    data_.nodes.resize(first_child + static_cast<std::size_t>(parts));
+  kernels::RegionNode& made = data_.nodes[node];
+  made.begin = begin;
+  made.child = bottom ? 0 : static_cast<std::uint32_t>(first_child);
+  made.cut[0] = static_cast<std::uint8_t>(parts);
+  for (int slot = 0; slot < static_cast<int>(kernels::kFanOut); ++slot) {
+    Box box;
+    if (slot < parts && bottom)
+      box = boxOf(cuts[slot], cuts[slot + 1]);
+    else if (slot < parts) {
+      const std::size_t child = first_child + static_cast<std::size_t>(slot);
+      fillNode(child, cuts[slot], cuts[slot + 1]);
+      box = boxOfNode(child);
+    }
+    setBox(node, slot, box);
+    if (bottom)
+      data_.nodes[node].cut[slot] =
+          static_cast<std::uint8_t>(cuts[std::min(slot + 1, parts)] - begin);
   }
 }
 
 void
-LinearOctreeBuilder::makeNodes()
+LinearOctreeBuilder::setBox(std::size_t node, int slot, const Box& box)
+{
+  for (int a = 0; a < 3; ++a) {
+    data_.nodes[node].low[a][slot] = box.low[a];
+    data_.nodes[node].high[a][slot] = box.high[a];
+  }
+}
+
+Box
+LinearOctreeBuilder::boxOfNode(std::size_t node) const
 {
   Box box;
-  const auto n = static_cast<std::uint32_t>(items_.size());
-  nodes.reserve(n / (2 * leaf_size_) + 1);
-  if (makeChild(0, n, 0, box) == kernels::kLeafChild)
-    setChild(addEmptyNode(), 0, kernels::kLeafChild, 0, n, box);
-  nodes.shrink_to_fit();
-}
-
-/** \brief The node over [begin, end), or kLeafChild; fills \p box. The range's points share all
- * digits above \p level. */
-std::uint32_t
-LinearOctreeBuilder::makeChild(std::uint32_t begin, std::uint32_t end, int level, Box& box)
-{
-  if (end - begin <= leaf_size_) {
-    box = boxOf(begin, end);
-    return kernels::kLeafChild;
-  }
-  level = firstDifferentLevel(begin, end, level);
-  if (level == kDepth) { // crowded: a key relative to the box of these points tells them apart
-    box = boxOf(begin, end);
-    sortRange(begin, end, box);
-    level = firstDifferentLevel(begin, end, 0);
-    if (level == kDepth)
-      return kernels::kLeafChild; // duplicates: their box is a point, never on a border
-  }
-  return makeNode(begin, end, level, box);
-}
-
-/** \brief The first level from \p level on whose digits differ in the sorted range, or kDepth. */
-int
-LinearOctreeBuilder::firstDifferentLevel(std::uint32_t begin, std::uint32_t end, int level) const
-{
-  const std::uint32_t different = items_[begin].key ^ items_[end - 1].key;
-  while (level < kDepth && different >> (3 * (kDepth - 1 - level)) == 0)
-    ++level;
-  return level;
-}
-
-std::uint32_t
-LinearOctreeBuilder::addEmptyNode()
-{
-  kernels::RegionNode node;
-  const Box empty;
-  for (int c = 0; c < 8; ++c) {
-    for (int a = 0; a < 3; ++a) {
-      node.low[a][c] = empty.low[a];
-      node.high[a][c] = empty.high[a];
-    }
-    node.begin[c] = node.count[c] = 0;
-    node.child[c] = kernels::kLeafChild;
-  }
-  nodes.push_back(node);
-  return static_cast<std::uint32_t>(nodes.size() - 1);
-}
-
-void
-LinearOctreeBuilder::setChild(std::uint32_t node, int slot, std::uint32_t child,
-                              std::uint32_t begin, std::uint32_t end, const Box& box)
-{
-  kernels::RegionNode& n = nodes[node];
+  const kernels::RegionNode& n = data_.nodes[node];
   for (int a = 0; a < 3; ++a) {
-    n.low[a][slot] = box.low[a];
-    n.high[a][slot] = box.high[a];
+    box.low[a] = *std::min_element(n.low[a], n.low[a] + kernels::kFanOut);
+    box.high[a] = *std::max_element(n.high[a], n.high[a] + kernels::kFanOut);
   }
-  n.begin[slot] = begin;
-  n.count[slot] = end - begin;
-  n.child[slot] = child;
-}
-
-/** \brief Splits [begin, end) by the digit of \p level; parents come before their children. */
-std::uint32_t
-LinearOctreeBuilder::makeNode(std::uint32_t begin, std::uint32_t end, int level, Box& box)
-{
-  const std::uint32_t node = addEmptyNode();
-  const int shift = 3 * (kDepth - 1 - level);
-  box = Box();
-  int slot = 0;
-  while (begin < end) {
-    const std::uint32_t digits = items_[begin].key >> shift;
-    const auto next = std::partition_point(items_.begin() + begin, items_.begin() + end,
-                                           [&](const Item& i) { return i.key >> shift == digits; });
-    const auto part_end = static_cast<std::uint32_t>(next - items_.begin());
-    Box part;
-    const std::uint32_t child = makeChild(begin, part_end, level + 1, part);
-    setChild(node, slot++, child, begin, part_end, part);
-    box.add(part);
-    begin = part_end;
-  }
-  return node;
+  return box;
 }
 
 } // namespace detail

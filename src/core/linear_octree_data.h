@@ -11,19 +11,15 @@
 
 namespace pcl_surflet {
 
+/** \brief The sorted points and the nodes over them. */
 struct LinearOctree::Data {
   Options options;
   const kernels::RegionKernels* kernels = nullptr;
   std::size_t size = 0;
-  std::vector<float> x, y, z; // padded by kRegionSlack
+  std::vector<float> x, y, z; // padded by a block
   std::vector<PointIndex> index;
   std::vector<kernels::RegionNode> nodes;
-
-  kernels::RegionTree
-  view() const
-  {
-    return {x.data(), y.data(), z.data(), index.data(), nodes.data()};
-  }
+  kernels::RegionTree tree{}; ///< refers to the arrays above
 };
 
 namespace detail {
@@ -33,44 +29,34 @@ struct Box {
   float low[3];
   float high[3];
   Box();
-  void add(const Box& other);
 };
 
 /** \brief Sorts points along the Morton curve and lays the nodes over them. */
 class LinearOctreeBuilder {
 public:
-  LinearOctreeBuilder(const PointArray& points, std::uint32_t leaf_size);
+  LinearOctreeBuilder(LinearOctree::Data& data, const PointArray& points);
 
-  /** \brief Takes the finite points (of \p subset, if given) and sorts them. */
-  void sortPoints(const std::vector<PointIndex>* subset);
-
-  std::size_t
-  size() const
-  {
-    return x.empty() ? 0 : x.size() - kernels::kRegionSlack;
-  }
-
-  std::vector<float> x, y, z;
-  std::vector<PointIndex> index;
-  std::vector<kernels::RegionNode> nodes;
+  /** \brief Takes the finite points (of \p subset, if given), sorts them and makes the nodes. */
+  void build(const std::vector<PointIndex>* subset);
 
 private:
   using Item = KeyedIndex<std::uint32_t>;
   static constexpr int kDepth = 10; ///< levels of one key
 
+  void takePoints(const std::vector<PointIndex>* subset);
   Box boxOf(std::size_t begin, std::size_t end) const;
-  void sortRange(std::size_t begin, std::size_t end, const Box& box);
+  void sortRange(std::size_t begin, std::size_t end);
   void gather(std::size_t begin, std::size_t end);
-  void makeNodes();
-  std::uint32_t makeChild(std::uint32_t begin, std::uint32_t end, int level, Box& box);
-  std::uint32_t makeNode(std::uint32_t begin, std::uint32_t end, int level, Box& box);
-  int firstDifferentLevel(std::uint32_t begin, std::uint32_t end, int level) const;
-  std::uint32_t addEmptyNode();
-  void setChild(std::uint32_t node, int slot, std::uint32_t child, std::uint32_t begin,
-                std::uint32_t end, const Box& box);
+  void fillNode(std::size_t node, std::uint32_t begin, std::uint32_t end);
+  bool hasOneKey(std::uint32_t begin, std::uint32_t end) const;
+  std::uint32_t middle(std::uint32_t begin, std::uint32_t end) const;
+  int cutRange(std::uint32_t begin, std::uint32_t end, std::uint32_t enough,
+               std::uint32_t* cuts) const;
+  void setBox(std::size_t node, int slot, const Box& box);
+  Box boxOfNode(std::size_t node) const;
 
+  LinearOctree::Data& data_;
   const PointArray& points_;
-  std::uint32_t leaf_size_;
   std::vector<Item> items_, scratch_;
 };
 

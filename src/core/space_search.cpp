@@ -89,8 +89,7 @@ SpaceSearch::build(const Options& options, const PointArray& points, const Point
   }
   else {
     UnrestrictedSpace::Options space_options;
-    space_options.tree =
-        options.backend == SpaceBackend::Octree ? TreeKind::Octree : TreeKind::Avl;
+    space_options.tree = options.backend == SpaceBackend::Octree ? TreeKind::Octree : TreeKind::Avl;
     space_options.cell = options.cell != 0 ? options.cell : suggestCellSize(points);
     space_options.depth = options.depth;
     space_options.threads = options.threads;
@@ -111,8 +110,7 @@ SpaceSearch::build(const Options& options, const PointArray& points, const Point
 
 std::size_t
 SpaceSearch::radiusSearch(const Position& q, double radius, bool sorted, std::size_t max_count,
-                          std::vector<PointIndex>& indices,
-                          std::vector<float>& sqr_distances) const
+                          std::vector<PointIndex>& indices, std::vector<float>& sqr_distances) const
 {
   index().regionSearch(q, radius, indices, &sqr_distances);
   if (sorted || (max_count > 0 && max_count < indices.size()))

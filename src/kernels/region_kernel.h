@@ -8,28 +8,34 @@
 namespace pcl_surflet {
 namespace kernels {
 
-/** \brief Points are padded by this many, and result buffers may be overwritten by this many past
- * their capacity: one widest vector. */
-constexpr std::uint32_t kRegionSlack = 16;
-constexpr std::uint32_t kLeafChild = 0xffffffffu;
+constexpr std::uint32_t kBlock = 16;       ///< points filtered at once: one widest vector
+constexpr std::uint32_t kFanOut = 8;       ///< children of a node
+constexpr std::uint32_t kBottomSize = 128; ///< most points of a bottom node
+/** \brief Ranges up to this length are copied by the kernels, longer ones are handed to range(). */
+constexpr std::uint32_t kShortRange = 512;
 
-/** \brief An inner node: the tight boxes of up to eight children side by side, so that all are
- * tested at once. Unused children have empty boxes (low = +inf, high = -inf). */
-struct alignas(32) RegionNode {
-  float low[3][8];
-  float high[3][8];
-  std::uint32_t begin[8]; ///< first point of the child
-  std::uint32_t count[8]; ///< number of points of the child
-  std::uint32_t child[8]; ///< index of the child's node, or kLeafChild
+/** \brief The tight boxes of up to eight consecutive children side by side, so that all are tested
+ * at once. Where there is no child, the box is empty (low = +inf, high = -inf).
+ *
+ * Children of an inner node are the nodes child, child + 1, ... and hold consecutive points; those
+ * of a bottom node (child = 0) are runs of about 16 points, child c ending at begin + cut[c]. */
+struct RegionNode {
+  float low[3][kFanOut];
+  float high[3][kFanOut];
+  std::uint32_t begin;       ///< first point
+  std::uint32_t child;       ///< first child node, 0 for a bottom node
+  std::uint8_t cut[kFanOut]; ///< bottom: ends of the runs; inner: cut[0] is the number of children
 };
 
-/** \brief The tree as the kernels see it; the root is nodes[0]. */
+/** \brief The tree as the kernels see it; the root is nodes[0]. All arrays of points are padded by
+ * a block. */
 struct RegionTree {
   const float* x;
   const float* y;
   const float* z;
   const std::int32_t* index; ///< the user's index of each point
   const RegionNode* nodes;
+  std::uint32_t size; ///< number of points
 };
 
 /** \brief Region of interest F(r, q): points with squared distance <= square [Wahl 2007, Eq. 4.13].
@@ -39,7 +45,8 @@ struct RegionQuery {
   float square;
 };
 
-/** \brief Where results go: two buffers that flush() empties when full.
+/** \brief Where results go: two buffers that flush() empties when full. They may be overwritten by
+ * a block past their capacity.
  *
  * range() receives whole ranges of points that need no test (not in the distance mode). */
 struct RegionSink {
@@ -63,9 +70,9 @@ struct RegionKernels {
   RegionSearchKernel indices;   ///< border hits: the user's indices
   RegionSearchKernel distances; ///< every hit: the user's index and the squared distance
   RegionSearchKernel positions; ///< border hits: positions in the sorted arrays
-  /** \brief Border filter of one leaf, with indices and squared distances. */
-  void (*leaf)(const RegionTree&, const RegionQuery&, std::uint32_t begin, std::uint32_t count,
-               RegionSink&);
+  /** \brief Border filter of the run [begin, end) with indices and squared distances. */
+  void (*run)(const RegionTree&, const RegionQuery&, std::uint32_t begin, std::uint32_t end,
+              RegionSink&);
   /** \brief Squared distances from q to the boxes of a node's children. */
   void (*boxes)(const RegionNode&, const float* q, float* square);
 };

@@ -30,9 +30,10 @@ nearestSquare(const RegionNode& node, const __m256 q[3])
   const __m256 zero = _mm256_setzero_ps();
   __m256 sum = zero;
   for (int a = 0; a < 3; ++a) {
-    const __m256 d = _mm256_max_ps(_mm256_max_ps(_mm256_sub_ps(_mm256_load_ps(node.low[a]), q[a]),
-                                                 _mm256_sub_ps(q[a], _mm256_load_ps(node.high[a]))),
-                                   zero);
+    const __m256 d =
+        _mm256_max_ps(_mm256_max_ps(_mm256_sub_ps(_mm256_loadu_ps(node.low[a]), q[a]),
+                                    _mm256_sub_ps(q[a], _mm256_loadu_ps(node.high[a]))),
+                      zero);
     sum = _mm256_add_ps(sum, _mm256_mul_ps(d, d)); // 0 + dx * dx is exact
   }
   return sum;
@@ -43,8 +44,8 @@ farthestSquare(const RegionNode& node, const __m256 q[3])
 {
   __m256 sum = _mm256_setzero_ps();
   for (int a = 0; a < 3; ++a) {
-    const __m256 d = _mm256_max_ps(_mm256_sub_ps(q[a], _mm256_load_ps(node.low[a])),
-                                   _mm256_sub_ps(_mm256_load_ps(node.high[a]), q[a]));
+    const __m256 d = _mm256_max_ps(_mm256_sub_ps(q[a], _mm256_loadu_ps(node.low[a])),
+                                   _mm256_sub_ps(_mm256_loadu_ps(node.high[a]), q[a]));
     sum = _mm256_add_ps(sum, _mm256_mul_ps(d, d));
   }
   return sum;
@@ -95,47 +96,52 @@ storeIndices(std::int32_t* p, __m256i v)
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(p), v);
 }
 
+/** \brief Writes the hits among the first \p count points, up to a block, from \p begin on behind
+ * the \p size results; returns how many there are now. */
 template <int mode>
-void
-filterLeaf(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
-           std::uint32_t count, RegionSink& sink)
+inline std::uint32_t
+filterBlock(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
+            std::uint32_t count, std::uint32_t size, RegionSink& sink)
 {
   const __m256 q[3] = {_mm256_set1_ps(query.q[0]), _mm256_set1_ps(query.q[1]),
                        _mm256_set1_ps(query.q[2])};
   const __m256 limit = _mm256_set1_ps(query.square);
   const __m256i lane_numbers = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-  for (std::uint32_t i = 0; i < count; i += 8) {
-    const __m256 square = squaredDistances(tree, q, begin + i);
-    const std::uint32_t left = count - i;
-    const unsigned hits = atMost(square, limit) & (left >= 8 ? 0xffu : (1u << left) - 1u);
-    if (sink.size + 8 > sink.capacity)
-      sink.flush(sink);
+  const unsigned valid = count >= 16 ? 0xffffu : (1u << count) - 1u;
+  for (std::uint32_t i = begin; i < begin + kBlock; i += 8) {
+    const __m256 square = squaredDistances(tree, q, i);
+    const unsigned hits = atMost(square, limit) & valid >> (i - begin) & 0xffu;
     const __m256i lanes = _mm256_cvtepu8_epi32(
         _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kHitLanes.lanes[hits])));
     const __m256i index =
-        mode == kPositions
-            ? _mm256_add_epi32(lane_numbers, _mm256_set1_epi32(static_cast<int>(begin + i)))
-            : loadIndices(tree.index + begin + i);
-    storeIndices(sink.index + sink.size, _mm256_permutevar8x32_epi32(index, lanes));
+        mode == kPositions ? _mm256_add_epi32(lane_numbers, _mm256_set1_epi32(static_cast<int>(i)))
+                           : loadIndices(tree.index + i);
+    storeIndices(sink.index + size, _mm256_permutevar8x32_epi32(index, lanes));
     if (mode == kDistances)
-      _mm256_storeu_ps(sink.square + sink.size, _mm256_permutevar8x32_ps(square, lanes));
-    sink.size += static_cast<std::uint32_t>(__builtin_popcount(hits));
+      _mm256_storeu_ps(sink.square + size, _mm256_permutevar8x32_ps(square, lanes));
+    size += static_cast<std::uint32_t>(__builtin_popcount(hits));
+  }
+  return size;
+}
+
+/** \brief Writes the whole block at \p begin behind the \p size results. */
+inline void
+copyBlock(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin, std::uint32_t size,
+          RegionSink& sink)
+{
+  const __m256 q[3] = {_mm256_set1_ps(query.q[0]), _mm256_set1_ps(query.q[1]),
+                       _mm256_set1_ps(query.q[2])};
+  for (std::uint32_t i = 0; i < kBlock; i += 8) {
+    storeIndices(sink.index + size + i, loadIndices(tree.index + begin + i));
+    _mm256_storeu_ps(sink.square + size + i, squaredDistances(tree, q, begin + i));
   }
 }
 
 inline void
-copyRange(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
-          std::uint32_t count, RegionSink& sink)
+copyIndexBlock(const RegionTree& tree, std::uint32_t begin, std::uint32_t size, RegionSink& sink)
 {
-  const __m256 q[3] = {_mm256_set1_ps(query.q[0]), _mm256_set1_ps(query.q[1]),
-                       _mm256_set1_ps(query.q[2])};
-  for (std::uint32_t i = 0; i < count; i += 8) {
-    if (sink.size + 8 > sink.capacity)
-      sink.flush(sink);
-    storeIndices(sink.index + sink.size, loadIndices(tree.index + begin + i));
-    _mm256_storeu_ps(sink.square + sink.size, squaredDistances(tree, q, begin + i));
-    sink.size += count - i < 8 ? count - i : 8;
-  }
+  for (std::uint32_t i = 0; i < kBlock; i += 8)
+    storeIndices(sink.index + size + i, loadIndices(tree.index + begin + i));
 }
 
 #include "region_traversal.inl"

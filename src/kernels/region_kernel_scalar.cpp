@@ -55,45 +55,40 @@ squaredDistance(const RegionTree& tree, const RegionQuery& query, std::uint32_t 
   return dx * dx + dy * dy + dz * dz;
 }
 
+/** \brief Writes the hits among the first \p count points, up to a block, from \p begin on behind
+ * the \p size results; returns how many there are now. */
 template <int mode>
-inline void
+inline std::uint32_t
 filterBlock(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
-            std::uint32_t end, RegionSink& sink)
+            std::uint32_t count, std::uint32_t size, RegionSink& sink)
 {
-  std::uint32_t size = sink.size;
-  for (std::uint32_t i = begin; i < end; ++i) {
+  count = count < kBlock ? count : kBlock;
+  for (std::uint32_t i = begin; i < begin + count; ++i) {
     const float square = squaredDistance(tree, query, i);
     sink.index[size] = mode == kPositions ? static_cast<std::int32_t>(i) : tree.index[i];
     if (mode == kDistances)
       sink.square[size] = square;
     size += square <= query.square; // no branch: on a border it would be mispredicted
   }
-  sink.size = size;
+  return size;
 }
 
-template <int mode>
-void
-filterLeaf(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
-           std::uint32_t count, RegionSink& sink)
+/** \brief Writes the whole block at \p begin behind the \p size results. */
+inline void
+copyBlock(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin, std::uint32_t size,
+          RegionSink& sink)
 {
-  for (std::uint32_t i = 0; i < count; i += kRegionSlack) {
-    if (sink.size + kRegionSlack > sink.capacity)
-      sink.flush(sink);
-    const std::uint32_t n = count - i < kRegionSlack ? count - i : kRegionSlack;
-    filterBlock<mode>(tree, query, begin + i, begin + i + n, sink);
+  for (std::uint32_t i = 0; i < kBlock; ++i) {
+    sink.index[size + i] = tree.index[begin + i];
+    sink.square[size + i] = squaredDistance(tree, query, begin + i);
   }
 }
 
 inline void
-copyRange(const RegionTree& tree, const RegionQuery& query, std::uint32_t begin,
-          std::uint32_t count, RegionSink& sink)
+copyIndexBlock(const RegionTree& tree, std::uint32_t begin, std::uint32_t size, RegionSink& sink)
 {
-  for (std::uint32_t i = begin; i < begin + count; ++i) {
-    if (sink.size == sink.capacity)
-      sink.flush(sink);
-    sink.index[sink.size] = tree.index[i];
-    sink.square[sink.size++] = squaredDistance(tree, query, i);
-  }
+  for (std::uint32_t i = 0; i < kBlock; ++i)
+    sink.index[size + i] = tree.index[begin + i];
 }
 
 #include "region_traversal.inl"

@@ -26,21 +26,23 @@ struct PlaceRange {
 
 /** \brief Static octree: points sorted by their Morton key, every node a range of them.
  *
- * The keys are those of ch. 4.2 [Wahl 2007]; where the dissertation descends by prefix and visits
- * all leaves below, here a node also knows the tight box of its points. A node wholly inside the
- * region is copied without tests, one wholly outside is skipped, and only leaves on the border
- * (up to Options::leaf_size points) are filtered point by point, 8 or 16 at a time. The points are
- * copied, as structure of arrays: 16 bytes a point, with nodes below 18. Building is linear.
+ * The keys are those of ch. 4.2 [Wahl 2007]. Where the dissertation descends by prefix and visits
+ * all leaves below, here a node also knows the tight boxes of its up to eight children: halves of
+ * halves of cells, bottom nodes of up to 128 points with runs of about 16. All eight are tested at
+ * once; a node wholly inside the region is copied without tests, one wholly outside is skipped, and
+ * only runs on the border are filtered, 8 or 16 points at a time. The points are copied, as
+ * structure of arrays: 16 bytes a point, with nodes below 20. Building takes linear time.
  *
  * Cells that are crowded at the depth of a key (10 levels) get keys of their own, so clusters of
  * any scale are resolved. Non-finite points are left out.
  *
- * Not found worth their cost: 63-bit keys (twice the sorting passes), one child box at a time
- * (the descent of small queries takes twice as long). */
+ * Tried and rejected: 63-bit keys (twice the sorting passes); nodes split by octal digit down to
+ * leaves of 64 to 256 points without boxes for their runs (half as fast from 40 hits up: most of a
+ * border leaf is filtered in vain); runs of exactly 16 points wherever cells end (their boxes
+ * overlap so much that small queries take twice as long). */
 class PCL_SURFLET_API LinearOctree : public RegionIndex {
 public:
   struct Options {
-    std::uint32_t leaf_size = 128; ///< most points of a leaf, at least 1
     /** \brief Kernels of this octree; there are none for Baseline, which takes the scalar ones, and
      * sets this machine lacks take the next lower. Results do not depend on it. */
     InstructionSet instruction_set = InstructionSet::Automatic;
@@ -55,7 +57,8 @@ public:
    *
    * Results name a point by its number in \p points. The array is not needed afterwards.
    * \throws std::length_error beyond 2^31 - 1 points
-   * \throws std::out_of_range if \p subset names a point that does not exist */
+   * \throws std::out_of_range if \p subset names a point that does not exist; the octree is then as
+   * it was */
   void build(const PointArray& points, const std::vector<PointIndex>* subset = nullptr);
 
   void setOptions(const Options& options); ///< for the next build()
@@ -80,8 +83,9 @@ public:
   std::array<const float*, 3> coordinates() const; ///< positionAt() as three arrays of size()
   const char* instructionSetName() const;          ///< "scalar", "avx2" or "avx512"
 
+  struct Data; ///< internal
+
 private:
-  struct Data;
   std::unique_ptr<Data> data_;
 };
 

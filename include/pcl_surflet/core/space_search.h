@@ -43,9 +43,9 @@ public:
                            std::vector<PointIndex>& indices,
                            std::vector<float>& sqr_distances) const;
 
-  const RegionIndex& index() const;         ///< never null: an empty LinearOctree at first
-  const LinearOctree* linear() const;       ///< null for dynamic backends
-  const UnrestrictedSpace* space() const;   ///< null for the static backend
+  const RegionIndex& index() const;       ///< never null: an empty LinearOctree at first
+  const LinearOctree* linear() const;     ///< null for dynamic backends
+  const UnrestrictedSpace* space() const; ///< null for the static backend
   UnrestrictedSpace* space();
   const Options& options() const;
   void setThreads(unsigned threads);
