@@ -133,6 +133,14 @@ LinearOctreeBuilder::boxOf(std::size_t begin, std::size_t end) const
 {
   Box box;
   const float* const v[3] = {data_.x.data(), data_.y.data(), data_.z.data()};
+  if (end - begin < 64) { // a run: six short chains side by side
+    for (std::size_t i = begin; i < end; ++i)
+      for (int a = 0; a < 3; ++a) {
+        box.low[a] = v[a][i] < box.low[a] ? v[a][i] : box.low[a];
+        box.high[a] = v[a][i] > box.high[a] ? v[a][i] : box.high[a];
+      }
+    return box;
+  }
   for (int a = 0; a < 3; ++a)
     minMax(v[a] + begin, end - begin, box.low[a], box.high[a]);
   return box;
@@ -150,18 +158,24 @@ LinearOctreeBuilder::sortRange(std::size_t begin, std::size_t end)
   if (!(half > 0))
     return; // all at one place
   const Slices sx(box.low[0], half), sy(box.low[1], half), sz(box.low[2], half);
-  std::vector<Item> part(end - begin);
+  const bool all = end - begin == items_.size();
+  std::vector<Item> part;
+  all ? part.swap(items_)
+      : part.assign(items_.begin() + static_cast<std::ptrdiff_t>(begin),
+                    items_.begin() + static_cast<std::ptrdiff_t>(end));
   for (std::size_t i = begin; i < end; ++i)
-    part[i - begin] = {spread10(sx(data_.x[i])) | spread10(sy(data_.y[i])) << 1 |
-                           spread10(sz(data_.z[i])) << 2,
-                       items_[i].index};
+    part[i - begin].key =
+        spread10(sx(data_.x[i])) | spread10(sy(data_.y[i])) << 1 | spread10(sz(data_.z[i])) << 2;
   if (part.size() < kSmallSort)
     std::sort(part.begin(), part.end(), [](const Item& a, const Item& b) {
       return a.key != b.key ? a.key < b.key : a.index < b.index;
     });
   else
     radixSort(part, scratch_, 3 * kDepth);
-  std::copy(part.begin(), part.end(), items_.begin() + static_cast<std::ptrdiff_t>(begin));
+  if (all)
+    items_.swap(part);
+  else
+    std::copy(part.begin(), part.end(), items_.begin() + static_cast<std::ptrdiff_t>(begin));
   gather(begin, end);
 }
 

@@ -10,7 +10,7 @@ namespace kernels {
 
 constexpr std::uint32_t kBlock = 16;       ///< points filtered at once: one widest vector
 constexpr std::uint32_t kFanOut = 8;       ///< children of a node
-constexpr std::uint32_t kBottomSize = 128; ///< most points of a bottom node
+constexpr std::uint32_t kBottomSize = 192; ///< most points of a bottom node
 /** \brief Ranges up to this length are copied by the kernels, longer ones are handed to range(). */
 constexpr std::uint32_t kShortRange = 512;
 
