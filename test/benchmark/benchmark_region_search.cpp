@@ -4,8 +4,10 @@
  * place of the generated scan and table scene. */
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/counter_random.h"
+#include "pcl_surflet/mean_surflet_grid.h"
 #include "pcl_surflet/octree_region_search.h"
 
+#include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/kdtree/kdtree_flann.h>
 #include <pcl/octree/octree_search.h>
@@ -128,7 +130,7 @@ struct Subject {
   Cloud queries;
   OctreeRegionSearch<Point> linear, octree{OctreeRegionSearch<Point>::Octree},
       avl{OctreeRegionSearch<Point>::AVL};
-  std::unique_ptr<PclOctree> pcl_octree;
+  std::unique_ptr<PclOctree> pcl_octree, pcl_octree_fine;
   pcl::search::KdTree<Point> kdtree{false};
   pcl::KdTreeFLANN<Point> flann{false};
   std::unique_ptr<NanoCloud> nano_cloud;
@@ -154,6 +156,9 @@ struct Subject {
     pcl_octree = std::make_unique<PclOctree>(cell); // the same cells for both octrees
     pcl_octree->setInputCloud(cloud);
     pcl_octree->addPointsFromInputCloud();
+    pcl_octree_fine = std::make_unique<PclOctree>(cell / 4);
+    pcl_octree_fine->setInputCloud(cloud);
+    pcl_octree_fine->addPointsFromInputCloud();
     kdtree.setInputCloud(cloud);
     flann.setInputCloud(cloud);
     nano_cloud = std::make_unique<NanoCloud>(NanoCloud{*cloud});
@@ -200,6 +205,10 @@ queryKinds()
       {"peer_pcl_octree",
        [out](Subject& s, const Point& q, double r) {
          return std::size_t(s.pcl_octree->radiusSearch(q, r, out->indices, out->squares));
+       }},
+      {"peer_pcl_octree_fine",
+       [out](Subject& s, const Point& q, double r) {
+         return std::size_t(s.pcl_octree_fine->radiusSearch(q, r, out->indices, out->squares));
        }},
       {"peer_search_kdtree",
        [out](Subject& s, const Point& q, double r) {
@@ -324,6 +333,37 @@ registerBuilds()
   }
 }
 
+/** \brief The reduction filter beside pcl::VoxelGrid: 770 k points of a table scene. */
+void
+registerReduction()
+{
+  const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  for (const auto& p : *tableCloud(770000))
+    cloud->push_back(pcl::PointNormal(p.x, p.y, p.z, 0, 0, 1));
+  const auto add = [](const std::string& title, const auto& run) {
+    benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {
+      for (auto _ : state)
+        state.counters["hits"] = double(run());
+    });
+  };
+  add("reduce770k/mean_surflet_grid", [=] {
+    MeanSurfletGrid<pcl::PointNormal> grid;
+    pcl::PointCloud<pcl::PointNormal> out;
+    grid.setInputCloud(cloud);
+    grid.setLeafSize(0.0058);
+    grid.filter(out);
+    return out.size();
+  });
+  add("reduce770k/peer_voxel_grid", [=] {
+    pcl::VoxelGrid<pcl::PointNormal> grid;
+    pcl::PointCloud<pcl::PointNormal> out;
+    grid.setInputCloud(cloud);
+    grid.setLeafSize(0.0058f, 0.0058f, 0.0058f);
+    grid.filter(out);
+    return out.size();
+  });
+}
+
 /** \brief Medians per group in one line: CSV for the documentation's tables and plots. */
 class TableReporter : public benchmark::ConsoleReporter {
 public:
@@ -401,6 +441,7 @@ main(int argc, char** argv)
     return 1;
   registerSearches();
   registerBuilds();
+  registerReduction();
   TableReporter reporter;
   benchmark::RunSpecifiedBenchmarks(&reporter);
   return 0;
