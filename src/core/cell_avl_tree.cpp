@@ -69,16 +69,19 @@ public:
 
 protected:
   void
-  collectPoints(const StartCells& starts, const RegionBounds&, RegionResult& result) const override
+  collectPoints(const StartCells& starts, const RegionBounds& bounds,
+                RegionResult& result) const override
   {
-    collect(starts, [&](std::uint32_t n) { result.test(buckets_[n]); });
+    collect(starts, bounds, [&](std::uint32_t n, bool whole) {
+      whole ? result.take(buckets_[n]) : result.test(buckets_[n]);
+    });
   }
 
   void
-  collectCells(const StartCells& starts, const RegionBounds&,
+  collectCells(const StartCells& starts, const RegionBounds& bounds,
                std::vector<Cell>& cells) const override
   {
-    collect(starts, [&](std::uint32_t n) { cells.push_back(cellAt(n)); });
+    collect(starts, bounds, [&](std::uint32_t n, bool) { cells.push_back(cellAt(n)); });
   }
 
 private:
@@ -223,44 +226,90 @@ private:
     return balance(n);
   }
 
+  /** \brief What one region search carries along. */
+  struct Exploration {
+    KeyWords mask; ///< the bits of the d_F leading digits
+    const RegionBounds* bounds;
+  };
+  /** \brief Start prefixes that may still occur, in ascending order. */
+  struct Prefixes {
+    const KeyWords* first;
+    const KeyWords* last;
+  };
+
   template <class Visit>
   void
-  collect(const StartCells& starts, const Visit& visit) const
+  collect(const StartCells& starts, const RegionBounds& bounds, const Visit& visit) const
   {
     std::vector<KeyWords> prefixes;
     for (const auto& start : starts.cells)
       prefixes.push_back(Key::fromCoordinates(start, starts.depth).words());
     std::sort(prefixes.begin(), prefixes.end());
     const std::uint64_t ones = ~std::uint64_t{0};
-    const KeyWords mask = Key::fromCoordinates({ones, ones, ones}, starts.depth).words();
-    explore(root_, mask, prefixes.data(), prefixes.data() + prefixes.size(), visit);
+    const Exploration exploration = {Key::fromCoordinates({ones, ones, ones}, starts.depth).words(),
+                                     &bounds};
+    KeyWords highest = Key::fromCoordinates({ones, ones, ones}, frame_.depth).words();
+    explore(root_, exploration, {prefixes.data(), prefixes.data() + prefixes.size()}, KeyWords{},
+            highest, visit);
+  }
+
+  /** \brief Box of the smallest cell that holds the keys from \p low to \p high. */
+  double
+  commonCell(const KeyWords& low, const KeyWords& high, double* corner) const
+  {
+    int digits = 0;
+    for (int w = 0; w < Words; ++w) {
+      const std::uint64_t different = low[w] ^ high[w];
+      digits += different == 0 ? Key::digits_per_word : (__builtin_clzll(different) - 1) / 3;
+      if (different != 0)
+        break;
+    }
+    const int depth = std::min(digits, frame_.depth);
+    const auto cell = Key::fromWords(low, depth).coordinates();
+    const double edge = frame_.edgeAt(depth);
+    for (std::size_t a = 0; a < 3; ++a)
+      corner[a] = frame_.corner[a] + static_cast<double>(cell[a]) * edge;
+    return edge;
   }
 
   /** \brief Step 3 with the explore operator [Wahl 2007, Eq. 4.24] for all start prefixes at once.
    *
    * I1 = prefix of node \p n; a start prefix I2 < I1 can only be found left of n, I2 > I1 only
-   * right of it, I2 = I1 (n is collected then) on both sides. [first, last) are the prefixes that
-   * may still occur below n, so no node is visited twice: the dissertation's list of explored
-   * prefixes turned inside out. That list, read literally, ends the search at a node with an
-   * explored prefix; points are lost then, since keys with the present prefix may lie below. */
+   * right of it, I2 = I1 (n is collected then) on both sides. \p open are the prefixes that may
+   * still occur below n, so no node is visited twice: the dissertation's list of explored prefixes
+   * turned inside out. That list, read literally, ends the search at a node with an explored
+   * prefix; points are lost then, since keys with the present prefix may lie below.
+   *
+   * All keys below n lie in [low, high]; large subtrees whose common cell the sphere does not
+   * reach are left out, and those in a cell inside it are taken without tests. */
   template <class Visit>
   void
-  explore(std::uint32_t n, const KeyWords& mask, const KeyWords* first, const KeyWords* last,
-          const Visit& visit) const
+  explore(std::uint32_t n, Exploration exploration, Prefixes open, KeyWords low,
+          const KeyWords& high, const Visit& visit) const
   {
-    while (n != kNone && first != last) {
+    constexpr std::int32_t kLargeHeight = 3; // below, the box costs more than it saves
+    while (n != kNone && open.first != open.last) {
       const Node& node = nodes_[n];
+      if (exploration.bounds && node.height >= kLargeHeight) {
+        double corner[3];
+        const double edge = commonCell(low, high, corner);
+        if (!exploration.bounds->reaches(corner, edge))
+          return;
+        if (exploration.bounds->contains(corner, edge))
+          exploration.bounds = nullptr;
+      }
       KeyWords prefix = node.key;
       for (int w = 0; w < Words; ++w)
-        prefix[w] &= mask[w];
-      const KeyWords* not_left = first; // prefixes from here on are not below I1
-      while (not_left != last && *not_left < prefix)
+        prefix[w] &= exploration.mask[w];
+      const KeyWords* not_left = open.first; // prefixes from here on are not below I1
+      while (not_left != open.last && *not_left < prefix)
         ++not_left;
-      const bool equal = not_left != last && *not_left == prefix;
-      explore(node.left, mask, first, not_left + equal, visit);
+      const bool equal = not_left != open.last && *not_left == prefix;
+      explore(node.left, exploration, {open.first, not_left + equal}, low, node.key, visit);
       if (equal)
-        visit(n);
-      first = not_left;
+        visit(n, exploration.bounds == nullptr);
+      open.first = not_left;
+      low = node.key;
       n = node.right;
     }
   }

@@ -17,6 +17,8 @@ public:
   add(PointIndex id, const Surflet& s) override
   {
     const auto cell = cellOf(s);
+    if (cell == last_cell_ && last_bucket_ != kNone) // neighbours in space often come in a row
+      return addToBucket(last_bucket_, cell, id, s);
     const Key key = Key::fromCoordinates(cell, frame_.depth);
     std::uint32_t node = 0;
     for (int level = 0; level < frame_.depth; ++level) {
@@ -30,6 +32,8 @@ public:
     if (frame_.depth == 0 && buckets_.count() == 0)
       node = buckets_.take(); // the cube is one cell, bucket 0
     addToBucket(node, cell, id, s);
+    last_cell_ = cell;
+    last_bucket_ = node;
   }
 
   bool
@@ -129,6 +133,7 @@ private:
   prune(const std::uint32_t* path, const Key& key)
   {
     buckets_.release(path[frame_.depth]);
+    last_bucket_ = kNone;
     for (int level = frame_.depth - 1; level >= 0; --level) {
       Node& node = nodes_[path[level]];
       node.child[key.digit(level)] = kNone;
@@ -183,11 +188,13 @@ private:
     }
     if (level == frame_.depth)
       return visit(node, cell, bounds == nullptr);
+    const Node& children = nodes_[node];
     for (unsigned digit = 0; digit < 8; ++digit)
-      descend(nodes_[node].child[digit], level + 1,
-              {cell[0] << 1 | (digit & 1), cell[1] << 1 | (digit >> 1 & 1),
-               cell[2] << 1 | (digit >> 2 & 1)},
-              bounds, visit);
+      if (children.child[digit] != kNone)
+        descend(children.child[digit], level + 1,
+                {cell[0] << 1 | (digit & 1), cell[1] << 1 | (digit >> 1 & 1),
+                 cell[2] << 1 | (digit >> 2 & 1)},
+                bounds, visit);
   }
 
   void
@@ -209,6 +216,8 @@ private:
 
   std::vector<Node> nodes_; ///< the root is node 0; children on level d_max are buckets
   std::vector<std::uint32_t> free_;
+  Coordinates last_cell_{}; ///< where the last point was added
+  std::uint32_t last_bucket_ = kNone;
   const std::vector<double> edges_ = [this] {
     std::vector<double> edges;
     for (int level = 0; level <= frame_.depth; ++level)

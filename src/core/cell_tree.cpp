@@ -81,7 +81,8 @@ constexpr double kUnit = 1 << 30; ///< fixed-point one of the bucket sums
 std::int64_t
 toFixed(double v, double limit)
 {
-  return std::isfinite(v) ? std::llround(std::min(std::max(v, -limit), limit) * kUnit) : 0;
+  v = std::min(std::max(v, -limit), limit) * kUnit;
+  return static_cast<std::int64_t>(v + (v < 0 ? -0.5 : 0.5)); // llround() is a slow library call
 }
 
 } // namespace
@@ -198,28 +199,53 @@ RegionBounds::contains(const double* low, double edge) const
   return sum <= whole_within;
 }
 
+RegionResult::RegionResult(const Position& centre, float square_radius,
+                           std::vector<PointIndex>& index_results,
+                           std::vector<float>* square_results)
+    : indices(index_results), squares(square_results), q(centre), square(square_radius)
+{
+}
+
+void
+RegionResult::flush()
+{
+  indices.insert(indices.end(), index_buffer, index_buffer + size);
+  if (squares)
+    squares->insert(squares->end(), square_buffer, square_buffer + size);
+  size = 0;
+}
+
+void
+RegionResult::append(const Bucket& bucket, float limit)
+{
+  const CellPoint* p = bucket.points.data();
+  for (std::size_t left = bucket.points.size(); left > 0;) {
+    if (size == kCapacity)
+      flush();
+    const std::size_t n = std::min<std::size_t>(left, kCapacity - size);
+    std::size_t at = size; // no branch: on the border it would be mispredicted
+    for (const CellPoint* const end = p + n; p != end; ++p) {
+      const float dx = p->x - q[0], dy = p->y - q[1], dz = p->z - q[2];
+      const float d = dx * dx + dy * dy + dz * dz;
+      index_buffer[at] = p->id;
+      square_buffer[at] = d;
+      at += d <= limit;
+    }
+    size = at;
+    left -= n;
+  }
+}
+
 void
 RegionResult::test(const Bucket& bucket)
 {
-  for (const CellPoint& p : bucket.points) {
-    const float dx = p.x - q[0], dy = p.y - q[1], dz = p.z - q[2];
-    const float d = dx * dx + dy * dy + dz * dz;
-    if (d <= square) {
-      indices.push_back(p.id);
-      if (squares)
-        squares->push_back(d);
-    }
-  }
+  append(bucket, square);
 }
 
 void
 RegionResult::take(const Bucket& bucket)
 {
-  for (const CellPoint& p : bucket.points) {
-    indices.push_back(p.id);
-    if (squares)
-      squares->push_back(squaredDistance({p.x, p.y, p.z}, q));
-  }
+  append(bucket, std::numeric_limits<float>::infinity());
 }
 
 bool
@@ -239,8 +265,9 @@ CellTreeBase::regionSearch(const Position& q, double radius, std::vector<PointIn
     return;
   const RegionBounds bounds(frame_, q, radius);
   const StartCells starts = findStartCells(frame_, q, radius); // step 1
-  RegionResult result{indices, sqr_distances, q, bounds.square};
+  RegionResult result(q, bounds.square, indices, sqr_distances);
   collectPoints(starts, bounds, result); // steps 2 and 3
+  result.flush();
 }
 
 void

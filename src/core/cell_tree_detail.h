@@ -72,15 +72,27 @@ struct RegionBounds {
   bool contains(const double* low, double edge) const;
 };
 
-/** \brief Results of a search under way. */
+/** \brief Results of a search under way, gathered in blocks. */
 struct RegionResult {
+  static constexpr std::size_t kCapacity = 512;
+
+  RegionResult(const Position& centre, float square_radius, std::vector<PointIndex>& index_results,
+               std::vector<float>* square_results);
+
+  void test(const Bucket& bucket); ///< takes the points of F(r, q)
+  void take(const Bucket& bucket); ///< takes all
+  void flush();                    ///< once more at the end
+
   std::vector<PointIndex>& indices;
   std::vector<float>* squares;
-  Position q;
-  float square;
+  const Position q;
+  const float square;
+  std::size_t size = 0;
+  PointIndex index_buffer[kCapacity];
+  float square_buffer[kCapacity];
 
-  void test(const Bucket& bucket);
-  void take(const Bucket& bucket);
+private:
+  void append(const Bucket& bucket, float limit);
 };
 
 /** \brief What both trees share; Derived tells how to reach buckets. */

@@ -179,8 +179,9 @@ surfaceDensity(const SurfletSet& set, std::uint64_t seed)
   for (std::size_t k = 0; k < std::min(kSamples, points.size()); ++k)
     squared.push_back(
         eighthNeighbour(points, random.below(static_cast<std::uint32_t>(points.size()))));
-  // Every sample stands for an area in proportion to its squared spacing: weighted by that, quantiles
-  // are shares of the surface, so that a sparse half with few surflets still counts as a half.
+  // Every sample stands for an area in proportion to its squared spacing: weighted by that,
+  // quantiles are shares of the surface, so that a sparse half with few surflets still counts as a
+  // half.
   std::sort(squared.begin(), squared.end());
   const double total = std::accumulate(squared.begin(), squared.end(), 0.0);
   const auto quantile = [&](double share) {

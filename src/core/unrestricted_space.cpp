@@ -73,6 +73,13 @@ UnrestrictedSpace::add(PointIndex id, const Surflet& s)
   return true;
 }
 
+void
+UnrestrictedSpace::reserve(PointIndex end)
+{
+  if (end > 0)
+    points_.reserve(static_cast<std::size_t>(end));
+}
+
 std::size_t
 UnrestrictedSpace::addBatch(PointIndex first, const SurfletSet& set)
 {

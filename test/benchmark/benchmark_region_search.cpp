@@ -338,7 +338,8 @@ void
 registerReduction()
 {
   const auto cloud = std::make_shared<pcl::PointCloud<pcl::PointNormal>>();
-  for (const auto& p : *tableCloud(770000))
+  const Cloud::Ptr table = tableCloud(770000);
+  for (const auto& p : *table)
     cloud->push_back(pcl::PointNormal(p.x, p.y, p.z, 0, 0, 1));
   const auto add = [](const std::string& title, const auto& run) {
     benchmark::RegisterBenchmark(title.c_str(), [=](benchmark::State& state) {

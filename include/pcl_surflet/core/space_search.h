@@ -35,6 +35,10 @@ public:
   void build(const Options& options, const PointArray& points, const PointArray& normals,
              const std::vector<PointIndex>* subset);
 
+  /** \brief Adds a batch to a dynamic backend under the numbers \p first, first + 1, ...; several
+   * times as fast as adding points one by one in random order. Does nothing with the static one. */
+  void addPoints(PointIndex first, const PointArray& points, const PointArray& normals);
+
   /** \brief Region search.
    * \param[in] sorted ascending by distance, ties by index; without it in no particular order
    * \param[in] max_count at most so many points, the nearest ones; 0: all

@@ -43,6 +43,9 @@ public:
    * \return how many were added */
   std::size_t addBatch(PointIndex first, const SurfletSet& set);
 
+  /** \brief Makes room for numbers below \p end. */
+  void reserve(PointIndex end);
+
   /** \brief Removes the point with number \p id; false if there is none. */
   bool remove(PointIndex id);
 

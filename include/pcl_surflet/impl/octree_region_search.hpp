@@ -309,10 +309,11 @@ template <typename PointT>
 pcl::index_t
 OctreeRegionSearch<PointT>::addPoints(const PointCloud& cloud)
 {
-  UnrestrictedSpace& space = dynamicSpace("addPoints");
+  dynamicSpace("addPoints");
   const pcl::index_t first = next_index_;
-  for (const PointT& point : cloud)
-    space.add(static_cast<PointIndex>(next_index_++), detail::surfletOf(point));
+  search_.addPoints(static_cast<PointIndex>(first), detail::coordinatesOf(cloud),
+                    detail::normalsOf(cloud));
+  next_index_ += static_cast<pcl::index_t>(cloud.size());
   return first;
 }
 
