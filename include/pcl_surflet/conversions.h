@@ -63,7 +63,6 @@ toSurflets(const pcl::PointCloud<PointNT>& cloud)
 /** \brief Converts a mesh; polygons are split into fans. Faces with fewer than three corners are
  * skipped. \throws std::invalid_argument if the mesh has no x, y, z of FLOAT32 or an index is out
  * of range. */
-PCL_SURFLET_API TriangleMesh
-toTriangleMesh(const pcl::PolygonMesh& mesh);
+PCL_SURFLET_API TriangleMesh toTriangleMesh(const pcl::PolygonMesh& mesh);
 
 } // namespace pcl_surflet

@@ -19,19 +19,18 @@ class PCL_SURFLET_API DatabaseFileError : public pcl::PCLException {
 public:
   explicit DatabaseFileError(const std::string& description)
       : pcl::PCLException(description, "database_file")
-  {}
+  {
+  }
 };
 
 /** \brief Writes \p database to \p path as binary PCD, atomically: readers see the old file or the
  * whole new one. \throws DatabaseFileError if it cannot be written (the old file is left as it
  * was) or the database is empty */
-PCL_SURFLET_API void
-saveDatabase(const ModelDatabase& database, const std::string& path);
+PCL_SURFLET_API void saveDatabase(const ModelDatabase& database, const std::string& path);
 
 /** \brief Reads a database (ASCII, binary or compressed PCD).
  * \throws DatabaseFileError if the file is missing, no PCD, truncated, of a newer format, lacks a
  * field, or holds a model that is unusable (HistogramModel::problem()) */
-PCL_SURFLET_API ModelDatabase
-loadDatabase(const std::string& path);
+PCL_SURFLET_API ModelDatabase loadDatabase(const std::string& path);
 
 } // namespace pcl_surflet

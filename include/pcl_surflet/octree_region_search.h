@@ -75,7 +75,7 @@ public:
   Backend getBackend() const;
 
   /** \brief Edge of the atomic cells of the dynamic backends, in the cloud's unit; 0 (default):
-   * chosen at setInputCloud() for about eight points a cell (0.01 without a cloud). Takes effect
+   * chosen at setInputCloud() for about 32 points a cell (0.01 without a cloud). Takes effect
    * at the next setInputCloud() or setBackend().
    * \throws pcl::PCLException unless 0 <= cell < inf */
   void setCellSize(double cell);

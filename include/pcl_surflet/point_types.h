@@ -10,8 +10,9 @@
 
 namespace pcl_surflet {
 
-/** \brief The feature of one pair of points: (alpha, beta, gamma, delta) [Wahl 2007, Eq. 2.10] and the
- * indices of the two points in the input cloud. alpha is in radian, delta in the cloud's unit. */
+/** \brief The feature of one pair of points: (alpha, beta, gamma, delta) [Wahl 2007, Eq. 2.10] and
+ * the indices of the two points in the input cloud. alpha is in radian, delta in the cloud's unit.
+ */
 struct SurfletPairSignature {
   float alpha = 0, beta = 0, gamma = 0, delta = 0;
   std::uint32_t index_1 = 0, index_2 = 0;
@@ -30,8 +31,8 @@ operator<<(std::ostream& os, const SurfletPairSignature& p)
             << p.index_1 << "," << p.index_2 << ")";
 }
 
-/** \brief Surflet-pair histogram of a whole cloud at the default resolution 5,5,5,5: shares that sum
- * to 1, alpha fastest, then beta, gamma, delta [Wahl 2007, Fig. 2.2, Eq. 2.23]. */
+/** \brief Surflet-pair histogram of a whole cloud at the default resolution 5,5,5,5: shares that
+ * sum to 1, alpha fastest, then beta, gamma, delta [Wahl 2007, Fig. 2.2, Eq. 2.23]. */
 struct SurfletPairHistogram625 {
   float histogram[625] = {};
 
@@ -71,7 +72,8 @@ namespace pcl {
 /** Without this, KdTreeFLANN would compare the first three bins only. */
 template <>
 class DefaultPointRepresentation<pcl_surflet::SurfletPairHistogram625>
-    : public DefaultFeatureRepresentation<pcl_surflet::SurfletPairHistogram625> {};
+    : public DefaultFeatureRepresentation<pcl_surflet::SurfletPairHistogram625> {
+};
 
 /** Compares (alpha, beta, gamma, delta), not the indices. */
 template <>

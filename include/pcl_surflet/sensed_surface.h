@@ -1,6 +1,6 @@
 /** \file
- * Surflets from sensor data that has no normals yet: depth images and points with viewing directions
- * [Wahl 2007, Sec. 1.5.3]. Normals are PCL's, oriented to the sensor. */
+ * Surflets from sensor data that has no normals yet: depth images and points with viewing
+ * directions [Wahl 2007, Sec. 1.5.3]. Normals are PCL's, oriented to the sensor. */
 #pragma once
 
 #include "pcl_surflet/conversions.h"
@@ -14,15 +14,15 @@ namespace pcl_surflet {
  *
  * NaN pixels and pixels without normal are left out and counted. Indices are those of the cloud.
  * \throws std::invalid_argument if the cloud is not organised or smaller than 3 x 3 pixels */
-PCL_SURFLET_API ConvertedSurflets
-surfletsFromDepth(const pcl::PointCloud<pcl::PointXYZ>& cloud, const Eigen::Vector3f& sensor);
+PCL_SURFLET_API ConvertedSurflets surfletsFromDepth(const pcl::PointCloud<pcl::PointXYZ>& cloud,
+                                                    const Eigen::Vector3f& sensor);
 
 /** \brief Surflets of an unorganised cloud seen from one place, normals by pcl::NormalEstimationOMP
  * over \p neighbours nearest points, oriented to \p sensor.
  * \throws std::invalid_argument if neighbours is below 3 */
-PCL_SURFLET_API ConvertedSurflets
-surfletsFromPoints(const pcl::PointCloud<pcl::PointXYZ>& cloud, const Eigen::Vector3f& sensor,
-                   int neighbours = 20, unsigned threads = 0);
+PCL_SURFLET_API ConvertedSurflets surfletsFromPoints(const pcl::PointCloud<pcl::PointXYZ>& cloud,
+                                                     const Eigen::Vector3f& sensor,
+                                                     int neighbours = 20, unsigned threads = 0);
 
 /** \brief Surflets of points of which each has the direction in which the sensor saw it (from the
  * sensor to the point, in the normal fields; any length but zero). Normals by

@@ -36,14 +36,14 @@ struct SurfaceFileOptions {
  *
  * Files with faces give a mesh; PCD and PLY without faces give oriented points and need
  * normal_x, normal_y, normal_z unless options say to estimate them.
- * \throws SurfaceFileError if the file is missing, of an unknown kind, empty, damaged, or has neither faces nor
- * usable normals */
-PCL_SURFLET_API SurfaceFile
-loadSurface(const std::string& path, const SurfaceFileOptions& options = {});
+ * \throws SurfaceFileError if the file is missing, of an unknown kind, empty, damaged, or has
+ * neither faces nor usable normals */
+PCL_SURFLET_API SurfaceFile loadSurface(const std::string& path,
+                                        const SurfaceFileOptions& options = {});
 
-/** \brief The surflets of a file: those of the points, or about \p mesh_surflets drawn evenly from the
- * mesh (sampleIsoMesh() with \p seed). */
-PCL_SURFLET_API SurfletSet
-surfletsOf(const SurfaceFile& file, std::size_t mesh_surflets, std::uint64_t seed);
+/** \brief The surflets of a file: those of the points, or about \p mesh_surflets drawn evenly from
+ * the mesh (sampleIsoMesh() with \p seed). */
+PCL_SURFLET_API SurfletSet surfletsOf(const SurfaceFile& file, std::size_t mesh_surflets,
+                                      std::uint64_t seed);
 
 } // namespace pcl_surflet

@@ -53,19 +53,6 @@ selectNearest(bool sorted, std::size_t max_count, std::vector<PointIndex>& indic
     unpack(packed[i], squares[i], indices[i]);
 }
 
-Surflet
-surfletAt(const PointArray& points, const PointArray& normals, std::size_t i)
-{
-  const std::size_t p = i * points.stride, n = i * normals.stride;
-  Surflet s{points.x[p], points.y[p], points.z[p], 0, 0, 0};
-  if (normals.x) {
-    s.nx = normals.x[n];
-    s.ny = normals.y[n];
-    s.nz = normals.z[n];
-  }
-  return s;
-}
-
 /** \brief Adds points along the Morton curve: consecutive ones share their cell or its neighbours,
  * which costs half the time of random order, the sorting included. */
 void
@@ -78,7 +65,15 @@ addInOrder(UnrestrictedSpace& space, PointIndex first, const PointArray& points,
     space.reserve(first + static_cast<PointIndex>(points.size));
   for (std::uint32_t place = 0; place < order.size(); ++place) {
     const PointIndex i = order.indexAt(place);
-    space.add(first + i, surfletAt(points, normals, static_cast<std::size_t>(i)));
+    const Position p = order.positionAt(place); // not from points: that would be in random order
+    Surflet s{p[0], p[1], p[2], 0, 0, 0};
+    if (normals.x) {
+      const std::size_t at = static_cast<std::size_t>(i) * normals.stride;
+      s.nx = normals.x[at];
+      s.ny = normals.y[at];
+      s.nz = normals.z[at];
+    }
+    space.add(first + i, s);
   }
 }
 

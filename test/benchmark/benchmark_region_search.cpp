@@ -150,10 +150,12 @@ struct Subject {
     for (int i = 0; i < 1024; ++i)
       queries.push_back((*points)[random.below(static_cast<std::uint32_t>(points->size()))]);
     octree.setInputCloud(cloud);
-    cell = octree.getCellSize();
+    // PCL's octree gets the cells that suit it best here, and finer ones as users often choose.
+    cell = suggestCellSize(
+        {&cloud->front().x, &cloud->front().y, &cloud->front().z, 4, cloud->size()}, 8);
     avl.setInputCloud(cloud);
     linear.setInputCloud(cloud);
-    pcl_octree = std::make_unique<PclOctree>(cell); // the same cells for both octrees
+    pcl_octree = std::make_unique<PclOctree>(cell);
     pcl_octree->setInputCloud(cloud);
     pcl_octree->addPointsFromInputCloud();
     pcl_octree_fine = std::make_unique<PclOctree>(cell / 4);
@@ -299,9 +301,12 @@ registerBuild(const std::string& title, std::size_t n, const Build& build)
 void
 registerBuilds()
 {
-  for (const std::size_t n : {84000, 1000000}) {
-    const std::string group = "build" + std::to_string(n / 1000) + "k/";
-    const double cell = n == 84000 ? 1.0 / 16 : 1.0 / 32;
+  // Coarse cells hold some 20 to 30 points, fine ones mostly none or one.
+  for (const auto& [n, cells] :
+       {std::pair<std::size_t, int>{84000, 16}, {1000000, 32}, {1000000, 128}}) {
+    const std::string group =
+        "build" + std::to_string(n / 1000) + "k_cells" + std::to_string(cells) + "/";
+    const double cell = 1.0 / cells;
     registerBuild(group + "linear", n, [](const Cloud::Ptr& c) {
       OctreeRegionSearch<Point> s;
       s.setInputCloud(c);

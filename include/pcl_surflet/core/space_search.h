@@ -17,7 +17,7 @@ class PCL_SURFLET_API SpaceSearch {
 public:
   struct Options {
     SpaceBackend backend = SpaceBackend::Linear;
-    double cell = 0;      ///< edge of an atomic cell (dynamic backends); 0: about 8 points per cell
+    double cell = 0;      ///< edge of an atomic cell (dynamic backends); 0: about 32 points per cell
     int depth = 8;        ///< d_max of a cube (dynamic backends), in [0, 63]
     unsigned threads = 1; ///< for batches and for searches across cubes; 0 = all of the machine
     LinearOctree::Options linear;
@@ -62,6 +62,6 @@ private:
 
 /** \brief Edge of a cell that holds about \p per_cell of \p points where there are any, a power-of-
  * two part of their extent; 0.01 if they have none. */
-PCL_SURFLET_API double suggestCellSize(const PointArray& points, double per_cell = 8);
+PCL_SURFLET_API double suggestCellSize(const PointArray& points, double per_cell = 32);
 
 } // namespace pcl_surflet
