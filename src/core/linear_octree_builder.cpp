@@ -89,12 +89,9 @@ LinearOctreeBuilder::build(const std::vector<PointIndex>* subset)
 {
   takePoints(subset);
   data_.size = items_.size();
-  const std::size_t padded = (data_.size + kernels::kBlock - 1) / kernels::kBlock * kernels::kBlock;
-  for (auto* v : {&data_.x, &data_.y, &data_.z}) {
+  const std::size_t padded = data_.size + kernels::kBlock;
+  for (auto* v : {&data_.x, &data_.y, &data_.z})
     std::vector<float>(padded).swap(*v);
-    std::fill(v->begin() + static_cast<std::ptrdiff_t>(data_.size), v->end(),
-              std::numeric_limits<float>::infinity());
-  }
   std::vector<PointIndex>(padded).swap(data_.index);
   data_.nodes.clear();
   if (data_.size == 0)
