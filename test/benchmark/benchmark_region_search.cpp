@@ -276,7 +276,7 @@ registerSearches()
     for (const double share : {0.01, 0.03, 0.05, 0.1, 0.25, 0.5})
       for (const auto& [kind, query] : queryKinds()) {
         char title[100];
-        std::snprintf(title, sizeof title, "%s,r%.2f/%s", name, share, kind.c_str());
+        std::snprintf(title, sizeof title, "%s:r%.2f/%s", name, share, kind.c_str());
         benchmark::RegisterBenchmark(title, [=, n = std::string(name)](benchmark::State& state) {
           search(state, n, share, query);
         });
