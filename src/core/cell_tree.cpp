@@ -19,15 +19,7 @@ CubeFrame::edgeAt(int d) const
 CubeFrame::Coordinates
 CubeFrame::coordinates(const std::array<double, 3>& p) const
 {
-  // Below 2^63 in any case: depth is at most 63.
-  const double scale = std::ldexp(1 / edge, depth);
-  const std::uint64_t last = (std::uint64_t{1} << depth) - 1;
-  Coordinates c;
-  for (int a = 0; a < 3; ++a) {
-    const double v = (p[a] - corner[a]) * scale;
-    c[a] = !(v > 0) ? 0 : v >= static_cast<double>(last) ? last : static_cast<std::uint64_t>(v);
-  }
-  return c;
+  return detail::cellCoordinates(*this, p, std::ldexp(1 / edge, depth));
 }
 
 std::unique_ptr<CellTree>
@@ -74,6 +66,19 @@ findStartCells(const CubeFrame& frame, const Position& q, double radius)
 
 namespace detail {
 
+CubeFrame::Coordinates
+cellCoordinates(const CubeFrame& frame, const std::array<double, 3>& p, double scale)
+{
+  // Below 2^63 in any case: the depth is at most 63.
+  const std::uint64_t last = (std::uint64_t{1} << frame.depth) - 1;
+  CubeFrame::Coordinates c;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double v = (p[a] - frame.corner[a]) * scale;
+    c[a] = !(v > 0) ? 0 : v >= static_cast<double>(last) ? last : static_cast<std::uint64_t>(v);
+  }
+  return c;
+}
+
 namespace {
 
 constexpr double kUnit = 1 << 30; ///< fixed-point one of the bucket sums
@@ -89,9 +94,8 @@ toFixed(double v, double limit)
 
 void
 addToSums(Bucket& bucket, const CubeFrame& frame, const CubeFrame::Coordinates& cell,
-          const Surflet& s, int sign)
+          const Surflet& s, int sign, double inverse_edge)
 {
-  const double inverse_edge = std::ldexp(1 / frame.edge, frame.depth);
   const float p[3] = {s.x, s.y, s.z}, n[3] = {s.nx, s.ny, s.nz};
   const bool has_normal = std::isfinite(n[0]) && std::isfinite(n[1]) && std::isfinite(n[2]);
   for (int a = 0; a < 3; ++a) {
@@ -295,7 +299,7 @@ void
 CellTreeBase::addToBucket(std::uint32_t bucket, const CubeFrame::Coordinates& cell, PointIndex id,
                           const Surflet& s)
 {
-  addToSums(buckets_[bucket], frame_, cell, s, 1);
+  addToSums(buckets_[bucket], frame_, cell, s, 1, scale_);
   buckets_[bucket].points.push_back({s.x, s.y, s.z, id});
   ++size_;
 }
@@ -310,7 +314,7 @@ CellTreeBase::removeFromBucket(std::uint32_t bucket, const CubeFrame::Coordinate
   if (at == points.end())
     return false;
   points.erase(at);
-  addToSums(buckets_[bucket], frame_, cell, s, -1);
+  addToSums(buckets_[bucket], frame_, cell, s, -1, scale_);
   --size_;
   return true;
 }

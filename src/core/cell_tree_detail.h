@@ -5,6 +5,7 @@
 #include "pcl_surflet/core/cell_tree.h"
 #include "pcl_surflet/core/morton_key.h"
 
+#include <cmath>
 #include <vector>
 
 namespace pcl_surflet {
@@ -24,9 +25,14 @@ struct Bucket {
   std::vector<CellPoint> points;
 };
 
-/** \brief Adds (\p sign = 1) or subtracts (-1) \p s; \p cell are its coordinates in \p frame. */
+/** \brief CubeFrame::coordinates() with its \p scale = 2^d_max / e0 known. */
+CubeFrame::Coordinates cellCoordinates(const CubeFrame& frame, const std::array<double, 3>& p,
+                                       double scale);
+
+/** \brief Adds (\p sign = 1) or subtracts (-1) \p s; \p cell are its coordinates in \p frame and
+ * \p inverse_edge is one over the edge of an atomic cell. */
 void addToSums(Bucket& bucket, const CubeFrame& frame, const CubeFrame::Coordinates& cell,
-               const Surflet& s, int sign);
+               const Surflet& s, int sign, double inverse_edge);
 
 Cell toCell(const Bucket& bucket, const CubeFrame& frame, const CubeFrame::Coordinates& cell);
 
@@ -98,7 +104,10 @@ private:
 /** \brief What both trees share; Derived tells how to reach buckets. */
 class CellTreeBase : public CellTree {
 public:
-  explicit CellTreeBase(const CubeFrame& frame) : frame_(frame) {}
+  explicit CellTreeBase(const CubeFrame& frame)
+      : frame_(frame), scale_(std::ldexp(1 / frame.edge, frame.depth))
+  {
+  }
 
   std::size_t
   size() const override
@@ -138,10 +147,11 @@ protected:
   CubeFrame::Coordinates
   cellOf(const Surflet& s) const
   {
-    return frame_.coordinates({s.x, s.y, s.z});
+    return cellCoordinates(frame_, {s.x, s.y, s.z}, scale_);
   }
 
   CubeFrame frame_;
+  double scale_; ///< one over the edge of an atomic cell
   BucketStore buckets_;
   std::size_t size_ = 0;
 };

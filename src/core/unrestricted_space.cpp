@@ -16,6 +16,16 @@ namespace {
 /** \brief Points in the cubes reached from which on threads are worth starting. */
 constexpr std::size_t kParallelPoints = 50000;
 
+/** \brief std::floor() without a library call, which machines without SSE4.1 need. */
+double
+floorOf(double v)
+{
+  if (!(v > -0x1p52 && v < 0x1p52))
+    return v; // whole already
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(v));
+  return whole > v ? whole - 1 : whole;
+}
+
 } // namespace
 
 UnrestrictedSpace::UnrestrictedSpace(const Options& options)
@@ -32,7 +42,7 @@ UnrestrictedSpace::~UnrestrictedSpace() = default;
 SuperKey
 UnrestrictedSpace::superKeyOf(const std::array<double, 3>& p) const
 {
-  return {std::floor(p[0] / edge_), std::floor(p[1] / edge_), std::floor(p[2] / edge_)};
+  return {floorOf(p[0] / edge_), floorOf(p[1] / edge_), floorOf(p[2] / edge_)};
 }
 
 SuperKey

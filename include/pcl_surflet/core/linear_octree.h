@@ -28,7 +28,7 @@ struct PlaceRange {
  *
  * The keys are those of ch. 4.2 [Wahl 2007]. Where the dissertation descends by prefix and visits
  * all leaves below, here a node also knows the tight boxes of its up to eight children: halves of
- * halves of cells, bottom nodes of up to 128 points with runs of about 16. All eight are tested at
+ * halves of cells, bottom nodes of up to 192 points with runs of about 16. All eight are tested at
  * once; a node wholly inside the region is copied without tests, one wholly outside is skipped, and
  * only runs on the border are filtered, 8 or 16 points at a time. The points are copied, as
  * structure of arrays: 16 bytes a point, with nodes below 20. Building takes linear time.

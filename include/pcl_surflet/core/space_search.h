@@ -17,8 +17,8 @@ class PCL_SURFLET_API SpaceSearch {
 public:
   struct Options {
     SpaceBackend backend = SpaceBackend::Linear;
-    double cell = 0;      ///< edge of an atomic cell (dynamic backends); 0: about 32 points per cell
-    int depth = 8;        ///< d_max of a cube (dynamic backends), in [0, 63]
+    double cell = 0; ///< edge of an atomic cell (dynamic backends); 0: about 32 points per cell
+    int depth = 8;   ///< d_max of a cube (dynamic backends), in [0, 63]
     unsigned threads = 1; ///< for batches and for searches across cubes; 0 = all of the machine
     LinearOctree::Options linear;
   };
