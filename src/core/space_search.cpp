@@ -63,17 +63,25 @@ addInOrder(UnrestrictedSpace& space, PointIndex first, const PointArray& points,
   order.build(points, subset);
   if (points.size > 0)
     space.reserve(first + static_cast<PointIndex>(points.size));
-  for (std::uint32_t place = 0; place < order.size(); ++place) {
-    const PointIndex i = order.indexAt(place);
-    const Position p = order.positionAt(place); // not from points: that would be in random order
-    Surflet s{p[0], p[1], p[2], 0, 0, 0};
-    if (normals.x) {
-      const std::size_t at = static_cast<std::size_t>(i) * normals.stride;
-      s.nx = normals.x[at];
-      s.ny = normals.y[at];
-      s.nz = normals.z[at];
+  constexpr std::uint32_t kPiece = 256;
+  PointIndex ids[kPiece];
+  Surflet surflets[kPiece];
+  const auto size = static_cast<std::uint32_t>(order.size());
+  for (std::uint32_t begin = 0; begin < size; begin += kPiece) {
+    const std::uint32_t n = std::min(kPiece, size - begin);
+    for (std::uint32_t k = 0; k < n; ++k) {
+      const PointIndex i = order.indexAt(begin + k);
+      const Position p = order.positionAt(begin + k); // points itself is in random order
+      ids[k] = first + i;
+      surflets[k] = {p[0], p[1], p[2], 0, 0, 0};
+      if (normals.x) {
+        const std::size_t at = static_cast<std::size_t>(i) * normals.stride;
+        surflets[k].nx = normals.x[at];
+        surflets[k].ny = normals.y[at];
+        surflets[k].nz = normals.z[at];
+      }
     }
-    space.add(first + i, s);
+    space.addBatch(ids, surflets, n);
   }
 }
 

@@ -72,11 +72,8 @@ UnrestrictedSpace::add(PointIndex id, const Surflet& s)
   if (id < 0 || contains(id) || !detail::isFinite({s.x, s.y, s.z}))
     return false;
   const auto i = static_cast<std::size_t>(id);
-  if (i >= points_.size()) {
-    Surflet unused;
-    unused.x = std::numeric_limits<float>::quiet_NaN();
-    points_.resize(i + 1, unused);
-  }
+  if (i >= points_.size())
+    reserve(id + 1);
   cubeAt(superKey({s.x, s.y, s.z})).add(id, s);
   points_[i] = s;
   ++size_;
@@ -86,8 +83,25 @@ UnrestrictedSpace::add(PointIndex id, const Surflet& s)
 void
 UnrestrictedSpace::reserve(PointIndex end)
 {
-  if (end > 0)
-    points_.reserve(static_cast<std::size_t>(end));
+  Surflet unused;
+  unused.x = std::numeric_limits<float>::quiet_NaN();
+  if (end > 0 && static_cast<std::size_t>(end) > points_.size())
+    points_.resize(static_cast<std::size_t>(end), unused);
+}
+
+std::size_t
+UnrestrictedSpace::addBatch(const PointIndex* ids, const Surflet* surflets, std::size_t n)
+{
+#if defined(__GNUC__) || defined(__clang__)
+  // Numbers in random order would miss the cache one after the other; so they do all at once.
+  for (std::size_t i = 0; i < n; ++i)
+    if (ids[i] >= 0 && static_cast<std::size_t>(ids[i]) < points_.size())
+      __builtin_prefetch(&points_[static_cast<std::size_t>(ids[i])], 1);
+#endif
+  std::size_t added = 0;
+  for (std::size_t i = 0; i < n; ++i)
+    added += add(ids[i], surflets[i]);
+  return added;
 }
 
 std::size_t
