@@ -11,7 +11,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <forward_list>
-#include <limits>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -30,7 +30,8 @@ constexpr const char* kHelp =
     "Experiment 4.6 [Wahl 2007]: uniform points in the unit cube, d_max = 8, saturations\n"
     "s = N / 8^8 from 0.001 to 0.1, radii from 0.01 to 0.5; a linked list, the octree, the AVL\n"
     "tree and the linear octree. Writes OUT_PREFIX.csv (times, relative times (4.32), memory),\n"
-    "OUT_PREFIX.gnuplot, which draws OUT_PREFIX.svg like Fig. 4.8, and prints a summary.\n"
+    "OUT_PREFIX.gnuplot, which draws OUT_PREFIX.svg (cuts through Fig. 4.8), and prints a "
+    "summary.\n"
     "\n"
     "  -saturations N   steps of s (10)\n"
     "  -radii N         steps of r (20)\n"
@@ -82,7 +83,7 @@ constexpr const char* kNames[kMethods] = {"list", "octree", "avl", "linear"};
 
 struct Row {
   double saturation, radius, hits;
-  std::array<double, kMethods> seconds;   ///< per search
+  std::array<double, kMethods> seconds;   ///< per search, the median
   std::array<double, kMethods> per_point; ///< bytes
 };
 
@@ -154,23 +155,36 @@ private:
   std::vector<float> squares_;
 };
 
-/** \brief Times every method on the same \p queries, in turns, so that a busy machine slows all. */
+/** \brief Saturation of step \p s [Wahl 2007, Eq. 4.31]. */
+double
+saturationOf(const Options& options, long s)
+{
+  const double share = options.saturations > 1 ? double(s) / double(options.saturations - 1) : 0;
+  return 0.001 + share * 0.099;
+}
+
+/** \brief Times every method on the same \p queries, in turns, so that a busy machine slows all;
+ * medians, so that being interrupted counts for nothing. */
 Row
 measure(Subject& subject, double saturation, double radius, long queries, CounterRandom& random)
 {
   Row row{saturation, radius, 0, {}, {}};
+  std::array<std::vector<double>, kMethods> seconds;
   for (long i = 0; i < queries; ++i) {
     const Position q = subject.point(random);
     for (int m = 0; m < kMethods; ++m) {
       const auto start = std::chrono::steady_clock::now();
       const std::size_t hits = subject.search(m, q, radius);
-      row.seconds[static_cast<std::size_t>(m)] +=
-          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      seconds[static_cast<std::size_t>(m)].push_back(
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       row.hits += m == Linear ? static_cast<double>(hits) / static_cast<double>(queries) : 0;
     }
   }
   for (std::size_t m = 0; m < kMethods; ++m) {
-    row.seconds[m] /= static_cast<double>(queries);
+    auto& t = seconds[m];
+    const auto middle = t.begin() + static_cast<std::ptrdiff_t>(t.size() / 2);
+    std::nth_element(t.begin(), middle, t.end());
+    row.seconds[m] = *middle;
     row.per_point[m] = subject.bytesPerPoint(static_cast<int>(m));
   }
   return row;
@@ -182,8 +196,7 @@ runExperiment(const Options& options)
   std::vector<Row> rows;
   const bool terminal = isatty(STDERR_FILENO) != 0;
   for (long s = 0; s < options.saturations; ++s) {
-    const double share = options.saturations > 1 ? double(s) / double(options.saturations - 1) : 0;
-    const double saturation = 0.001 + share * 0.099;
+    const double saturation = saturationOf(options, s);
     CounterRandom random(static_cast<std::uint64_t>(options.seed), static_cast<std::uint64_t>(s));
     Subject subject(static_cast<std::size_t>(std::lround(saturation * std::ldexp(1, 24))), random);
     for (long r = 0; r < options.radii; ++r) {
@@ -219,28 +232,31 @@ writeCsv(const std::string& file, const std::vector<Row>& rows)
   return std::fclose(out) == 0 && good;
 }
 
+/** \brief Cuts through Fig. 4.8 at the lowest, a middle and the highest saturation: lines can be
+ * compared where surfaces hide each other. */
 bool
-writePlot(const std::string& prefix)
+writePlot(const Options& options)
 {
-  std::FILE* out = std::fopen((prefix + ".gnuplot").c_str(), "w");
+  std::FILE* out = std::fopen((options.prefix + ".gnuplot").c_str(), "w");
   if (!out)
     return false;
-  const std::string base = prefix.substr(prefix.find_last_of('/') + 1);
+  const std::string base = options.prefix.substr(options.prefix.find_last_of('/') + 1);
   std::fprintf(out,
                "# Run in this folder: gnuplot %s.gnuplot\n"
-               "set terminal svg size 900,1100 background rgb 'white'\nset output '%s.svg'\n"
-               "set datafile separator ','\nset multiplot layout 4,2\nset logscale z\n"
-               "set xlabel 'r'\nset ylabel 's'\nset view 60,40\nset key off\n",
+               "set terminal svg size 900,900 background rgb 'white'\nset output '%s.svg'\n"
+               "set datafile separator ','\nset multiplot layout 3,2\nset logscale y\n"
+               "set xlabel 'r'\nset key bottom right\nnames = 'list octree avl linear'\n",
                base.c_str(), base.c_str());
-  for (int m = 0; m < kMethods; ++m) {
-    const int column = 4 + 3 * m;
+  for (const long step : {0L, options.saturations / 2, options.saturations - 1}) {
+    const double s = saturationOf(options, step);
     std::fprintf(out,
-                 "set title '%s: time per search [us]'\n"
-                 "splot '%s.csv' skip 1 using 2:1:%d with points pt 7 ps 0.4 palette\n"
-                 "set title '%s: 100 (time/best - 1) + 1'\n"
-                 "splot '%s.csv' skip 1 using 2:1:($%d > -99 ? $%d + 1 : 1) with points pt 7 ps "
-                 "0.4 palette\n",
-                 kNames[m], base.c_str(), column, kNames[m], base.c_str(), column + 1, column + 1);
+                 "set title 's = %.3g: time per search [us]'\n"
+                 "plot for [m=0:3] '%s.csv' skip 1 using (abs($1-%.4g)<1e-6 ? $2 : NaN):"
+                 "(column(4+3*m)) with linespoints pt 7 ps 0.4 title word(names, m+1)\n"
+                 "set title 's = %.3g: relative time (4.32) [%%] + 1'\n"
+                 "plot for [m=0:2] '%s.csv' skip 1 using (abs($1-%.4g)<1e-6 ? $2 : NaN):"
+                 "(column(5+3*m)+1) with linespoints pt 7 ps 0.4 title word(names, m+1)\n",
+                 s, base.c_str(), s, s, base.c_str(), s);
   }
   std::fprintf(out, "unset multiplot\n");
   const bool good = !std::ferror(out);
@@ -327,7 +343,7 @@ main(int argc, char** argv)
     std::fputs(kHelp, stdout);
     return 0;
   }
-  if (!writePlot(options.prefix)) { // before the long run
+  if (!writePlot(options)) { // before the long run
     std::fprintf(stderr, "cannot write %s.gnuplot\n", options.prefix.c_str());
     return kBadData;
   }
