@@ -131,19 +131,20 @@ PairSource::PairSource(const SurfletSet& set) : unit_(toUnitScale(set))
   const std::size_t n = set.size();
   if (n >= (std::size_t{1} << 29))
     throw std::length_error("pcl_surflet: 2^29 surflets or more; reduce the cloud first");
-  storage_.assign(8 * n + 8, 0.f);
-  void* aligned = storage_.data();
-  std::size_t space = storage_.size() * sizeof(float);
+  storage_.reset(new float[8 * n + 8]); // left unset: every record is written below
+  void* aligned = storage_.get();
+  std::size_t space = (8 * n + 8) * sizeof(float);
   auto* record = static_cast<float*>(std::align(32, 8 * n * sizeof(float), aligned, space));
   records_ = record;
-  const auto& s = unit_.set;
+  const auto columns = columnsOf(unit_.set);
   for (std::size_t i = 0; i < n; ++i, record += 8) {
-    record[0] = s.x[i];
-    record[1] = s.y[i];
-    record[2] = s.z[i];
-    record[3] = s.nx[i];
-    record[4] = s.ny[i];
-    record[5] = s.nz[i];
+    record[0] = columns.x[i];
+    record[1] = columns.y[i];
+    record[2] = columns.z[i];
+    record[3] = columns.nx[i];
+    record[4] = columns.ny[i];
+    record[5] = columns.nz[i];
+    record[6] = record[7] = 0;
   }
 }
 

@@ -5,6 +5,12 @@
 #include <limits>
 
 namespace pcl_surflet {
+namespace {
+
+/** \brief Squared lengths this close to 1 are those of a unit vector in single precision. */
+constexpr double kUnitTolerance = 4e-7;
+
+} // namespace
 
 void
 SurfletSet::reserve(std::size_t n)
@@ -37,11 +43,15 @@ SurfletSet::appendChecked(const Surflet& s)
   if (!std::isfinite(s.x) || !std::isfinite(s.y) || !std::isfinite(s.z))
     return false;
   // In double precision neither the largest nor the smallest float overflows when squared.
-  const double length =
-      std::sqrt(static_cast<double>(s.nx) * s.nx + static_cast<double>(s.ny) * s.ny +
-                static_cast<double>(s.nz) * s.nz);
-  if (!(length > 0) || !std::isfinite(length))
+  const double squared = static_cast<double>(s.nx) * s.nx + static_cast<double>(s.ny) * s.ny +
+                         static_cast<double>(s.nz) * s.nz;
+  if (!(squared > 0) || !std::isfinite(squared))
     return false;
+  if (std::abs(squared - 1) < kUnitTolerance) { // most normals; a root and divisions less
+    push_back(s);
+    return true;
+  }
+  const double length = std::sqrt(squared);
   push_back({s.x, s.y, s.z, static_cast<float>(s.nx / length), static_cast<float>(s.ny / length),
              static_cast<float>(s.nz / length)});
   return true;
@@ -90,15 +100,34 @@ UnitSurflets
 toUnitScale(const SurfletSet& set)
 {
   UnitSurflets unit;
-  const Extent e = computeExtent(set);
-  if (e.r_max > 0)
-    unit.scale = std::ldexp(1.0, -std::ilogb(e.r_max) - 1);
-  unit.set = set;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    unit.set.x[i] = static_cast<float>((set.x[i] - e.centroid[0]) * unit.scale);
-    unit.set.y[i] = static_cast<float>((set.y[i] - e.centroid[1]) * unit.scale);
-    unit.set.z[i] = static_cast<float>((set.z[i] - e.centroid[2]) * unit.scale);
+  const std::size_t n = set.size();
+  if (n == 0)
+    return unit;
+  double centre[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < n; ++i) { // three independent chains of additions
+    centre[0] += set.x[i];
+    centre[1] += set.y[i];
+    centre[2] += set.z[i];
   }
+  for (double& c : centre)
+    c /= static_cast<double>(n);
+  double reach[3] = {0, 0, 0};
+  for (std::size_t i = 0; i < n; ++i) {
+    reach[0] = std::max(reach[0], std::abs(set.x[i] - centre[0]));
+    reach[1] = std::max(reach[1], std::abs(set.y[i] - centre[1]));
+    reach[2] = std::max(reach[2], std::abs(set.z[i] - centre[2]));
+  }
+  const double farthest = std::max({reach[0], reach[1], reach[2]});
+  if (farthest > 0 && std::isfinite(farthest))
+    unit.scale = std::ldexp(1.0, -std::ilogb(farthest) - 1);
+  unit.set = set;
+  const auto convert = [&](std::vector<float>& column, double c) {
+    for (float& v : column)
+      v = static_cast<float>((v - c) * unit.scale);
+  };
+  convert(unit.set.x, centre[0]);
+  convert(unit.set.y, centre[1]);
+  convert(unit.set.z, centre[2]);
   return unit;
 }
 

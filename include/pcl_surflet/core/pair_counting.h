@@ -6,6 +6,7 @@
 #include "pcl_surflet/core/surflet_set.h"
 
 #include <cstdint>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -47,7 +48,7 @@ public:
 
 private:
   UnitSurflets unit_;
-  std::vector<float> storage_;
+  std::unique_ptr<float[]> storage_;
   const float* records_ = nullptr;
 };
 
