@@ -34,11 +34,11 @@ PCL_SURFLET_API ConvertedSurflets
 surfletsFromDirections(const pcl::PointCloud<pcl::PointNormal>& points_and_directions,
                        int neighbours = 20, unsigned threads = 0);
 
-/** \brief The surflets with normals estimated anew from the positions (pcl::NormalEstimationOMP over
- * \p radius), each turned to the side of the normal it replaces. Surflets with fewer than three
- * neighbours are left out and counted.
- * \throws std::invalid_argument if radius is not positive */
-PCL_SURFLET_API ConvertedSurflets
-withEstimatedNormals(const SurfletSet& surflets, double radius, unsigned threads = 0);
+/** \brief The surflets with normals estimated anew from the positions (pcl::NormalEstimationOMP
+ * over \p radius), each turned to the side of the normal it replaces. Surflets with fewer than
+ * three neighbours are left out and counted. \throws std::invalid_argument if radius is not
+ * positive */
+PCL_SURFLET_API ConvertedSurflets withEstimatedNormals(const SurfletSet& surflets, double radius,
+                                                       unsigned threads = 0);
 
 } // namespace pcl_surflet

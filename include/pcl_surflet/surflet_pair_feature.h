@@ -66,7 +66,8 @@ public:
 
   SurfletPairFeature() { this->feature_name_ = "SurfletPairFeature"; }
 
-  /** \brief Pairs to draw at random, with replacement; 0 (default): all pairs. */
+  /** \brief Pairs to draw at random, with replacement; 0 (default): all pairs. No more than 2^31 -
+   * 1 are output, PCL's clouds hold no more. */
   void
   setNumberOfPairs(std::uint64_t pairs)
   {

@@ -9,6 +9,7 @@
 #include <pcl/features/feature.h>
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pcl_surflet {
@@ -23,6 +24,9 @@ struct HistogramRequest {
   double delta_max = 0;
   unsigned threads = 0;
 };
+
+/** \brief Empty, or why the request cannot be served with output points of \p bins bins. */
+PCL_SURFLET_API std::string requestProblem(const HistogramRequest& request, int bins);
 
 /** \brief The histogram, empty if no pair has a feature. */
 PCL_SURFLET_API std::vector<float> computePairHistogram(const SurfletSet& surflets,
@@ -44,7 +48,8 @@ PCL_SURFLET_API std::vector<float> computePairHistogram(const SurfletSet& surfle
  *
  * The output is one point whose \c histogram holds shares that sum to 1. It can be searched with
  * pcl::KdTreeFLANN and written as a PCD that pcl_viewer plots. PointOutT may be any type with a
- * float histogram[] and descriptorSize(), e.g. pcl::Histogram<2401> with setResolution({7,7,7,7}).
+ * float histogram[] and descriptorSize(), e.g. pcl::Histogram<2401> with setResolution({7,7,7,7});
+ * define PCL_NO_PRECOMPILE before including this header then, as for point types of your own.
  *
  * Histograms are comparable only if they were made with the same delta_max: set that of the model
  * (or of the largest object) with setDeltaMax(); by default it is measured, which makes the
@@ -76,7 +81,8 @@ public:
   {
     request_.delta_max = delta_max;
   }
-  /** \brief Pairs to draw, default 1,000,000; a cloud that has no more pairs gives all of them. */
+  /** \brief Pairs to draw, positive, default 1,000,000; a cloud that has no more pairs gives all of
+   * them. */
   void
   setNumberOfPairs(std::uint64_t pairs)
   {

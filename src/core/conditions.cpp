@@ -79,6 +79,8 @@ displacedAlongNormals(const SurfletSet& set, double amplitude, std::uint64_t see
 SurfletSet
 cutByRandomPlane(const SurfletSet& set, double visible, std::uint64_t seed)
 {
+  if (!(visible > 0 && visible <= 1))
+    throw std::invalid_argument("pcl_surflet: the visible share must be in (0, 1]");
   if (set.empty())
     return set;
   CounterRandom random(seed);

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -41,8 +42,14 @@ parallelFor(std::size_t items, unsigned threads,
     }
   };
   std::vector<std::thread> pool;
-  for (unsigned t = 1; t < threads; ++t)
-    pool.emplace_back(run, t);
+  pool.reserve(threads - 1);
+  try {
+    for (unsigned t = 1; t < threads; ++t)
+      pool.emplace_back(run, t);
+  }
+  catch (const std::system_error&) {
+    // The system gives no more threads; those there are do all the work.
+  }
   run(0);
   for (auto& thread : pool)
     thread.join();

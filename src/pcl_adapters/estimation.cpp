@@ -131,6 +131,22 @@ computePairSignatures(const SurfletSet& surflets, const PairFeatureRequest& requ
   return drawnPairs(computation, surflets.size(), request, rejected);
 }
 
+std::string
+requestProblem(const HistogramRequest& request, int bins)
+{
+  if (auto problem = request.resolution.problem(); !problem.empty())
+    return problem;
+  if (request.resolution.bins() != bins)
+    return "Resolution " + request.resolution.toString() + " has " +
+           std::to_string(request.resolution.bins()) + " bins, the output point type " +
+           std::to_string(bins) + ".";
+  if (!(request.delta_max >= 0) || !std::isfinite(request.delta_max))
+    return "delta_max must be positive and finite, or 0 to be measured.";
+  if (request.pairs == 0)
+    return "The number of pairs must be positive.";
+  return {};
+}
+
 std::vector<float>
 computePairHistogram(const SurfletSet& surflets, const HistogramRequest& request)
 {

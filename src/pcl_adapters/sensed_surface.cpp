@@ -1,8 +1,10 @@
 #include "pcl_surflet/sensed_surface.h"
 
-#include <pcl/common/point_tests.h>
 #include <pcl/features/integral_image_normal.h>
 #include <pcl/features/normal_3d_omp.h>
+
+#include <cmath>
+#include <limits>
 
 namespace pcl_surflet {
 namespace {
@@ -24,6 +26,38 @@ allIndices(std::size_t n)
     all[i] = static_cast<pcl::index_t>(i);
   return all;
 }
+
+/** \brief The finite points of a cloud. PCL's normal estimation looks at is_dense only, and its
+ * search aborts the process on a point that is not finite in a cloud that claims to be dense. */
+struct FinitePoints {
+  Points points;
+  pcl::Indices indices; ///< in the cloud
+  std::size_t left_out = 0;
+
+  template <class PointT>
+  explicit FinitePoints(const pcl::PointCloud<PointT>& cloud)
+  {
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+      if (!std::isfinite(cloud[i].x) || !std::isfinite(cloud[i].y) || !std::isfinite(cloud[i].z)) {
+        ++left_out;
+        continue;
+      }
+      points.push_back({cloud[i].x, cloud[i].y, cloud[i].z});
+      indices.push_back(static_cast<pcl::index_t>(i));
+    }
+  }
+
+  /** \brief Surflets with these normals; indices are those of the cloud. */
+  ConvertedSurflets
+  convert(const Normals& normals) const
+  {
+    auto out = toSurflets(points, normals, allIndices(points.size()));
+    for (auto& i : out.indices)
+      i = indices[static_cast<std::size_t>(i)];
+    out.rejected += left_out;
+    return out;
+  }
+};
 
 Normals
 estimateNormals(const Points& cloud, const Eigen::Vector3f& sensor, int neighbours,
@@ -80,28 +114,18 @@ ConvertedSurflets
 surfletsFromPoints(const Points& cloud, const Eigen::Vector3f& sensor, int neighbours,
                    unsigned threads)
 {
-  return toSurflets(cloud, estimateNormals(cloud, sensor, neighbours, threads),
-                    allIndices(cloud.size()));
+  const FinitePoints finite(cloud);
+  return finite.convert(estimateNormals(finite.points, sensor, neighbours, threads));
 }
 
 ConvertedSurflets
-surfletsFromDirections(const pcl::PointCloud<pcl::PointNormal>& seen, int neighbours,
-                       unsigned threads)
+surfletsFromDirections(const pcl::PointCloud<pcl::PointNormal>& points_and_directions,
+                       int neighbours, unsigned threads)
 {
-  Points points;
-  pcl::Indices kept;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (pcl::isXYZFinite(seen[i])) {
-      points.push_back({seen[i].x, seen[i].y, seen[i].z});
-      kept.push_back(static_cast<pcl::index_t>(i));
-    }
-  Normals normals = estimateNormals(points, Eigen::Vector3f::Zero(), neighbours, threads);
-  orientAgainst(seen, kept, normals);
-  auto out = toSurflets(points, normals, allIndices(points.size()));
-  for (auto& i : out.indices)
-    i = kept[static_cast<std::size_t>(i)];
-  out.rejected += seen.size() - points.size();
-  return out;
+  const FinitePoints finite(points_and_directions);
+  Normals normals = estimateNormals(finite.points, Eigen::Vector3f::Zero(), neighbours, threads);
+  orientAgainst(points_and_directions, finite.indices, normals);
+  return finite.convert(normals);
 }
 
 ConvertedSurflets
@@ -112,19 +136,21 @@ withEstimatedNormals(const SurfletSet& surflets, double radius, unsigned threads
   Points points;
   for (std::size_t i = 0; i < surflets.size(); ++i)
     points.push_back({surflets.x[i], surflets.y[i], surflets.z[i]});
+  const FinitePoints finite(points);
   Normals normals;
-  if (!points.empty()) {
+  if (!finite.points.empty()) {
     pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation(threads);
-    estimation.setInputCloud(shared(points));
+    estimation.setInputCloud(shared(finite.points));
     estimation.setRadiusSearch(radius);
     estimation.compute(normals);
   }
-  for (std::size_t i = 0; i < normals.size(); ++i) {
-    auto n = normals[i].getNormalVector3fMap();
+  for (std::size_t k = 0; k < normals.size(); ++k) {
+    const auto i = static_cast<std::size_t>(finite.indices[k]);
+    auto n = normals[k].getNormalVector3fMap();
     if (n.dot(Eigen::Vector3f(surflets.nx[i], surflets.ny[i], surflets.nz[i])) < 0)
       n = -n;
   }
-  return toSurflets(points, normals, allIndices(points.size()));
+  return finite.convert(normals);
 }
 
 } // namespace pcl_surflet

@@ -97,7 +97,8 @@ HistogramClassifier::accepted(const ModelMatch& match) const
   if (!threshold_)
     return true;
   if (criterion_ == Criterion::Likelihood)
-    return match.surprise <= *threshold_;
+    return std::abs(match.surprise) <=
+           *threshold_; // features that are too typical are foreign as well
   return !better(*threshold_, match.score);
 }
 

@@ -1,6 +1,7 @@
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/core/pair_counting.h"
 
@@ -20,7 +21,7 @@ formatted(double v)
   return text;
 }
 
-/** \brief Cells as wide as the sparse tenth of the cloud needs to still have a surflet in each. */
+/** \brief Cells wide enough to hold surflets also on all but the sparsest 5 % of the surface. */
 SurfletSet
 evenedOut(const SurfletSet& set, const SurfaceDensity& density)
 {
@@ -100,7 +101,9 @@ HistogramModelTrainer::train(const std::string& label, const TriangleMesh& mesh)
   std::vector<SurfletSet> samplings;
   double delta_max = 0;
   for (unsigned k = 0; k < mesh_samplings_; ++k) {
-    samplings.push_back(sampleIsoMesh(mesh, mesh_surflets_, seed_ + k));
+    // Hashed: seeds next to each other share no sampling, and no query drawn with the same seed is
+    // one.
+    samplings.push_back(sampleIsoMesh(mesh, mesh_surflets_, mix64(mix64(seed_) + k)));
     delta_max = std::max(delta_max, farthestDistance(samplings.back()));
   }
   if (!(delta_max > 0))

@@ -70,6 +70,8 @@ TEST(Conditions, CutLeavesTheShareOnOneSideOfAPlane)
   }
   EXPECT_EQ(cutByRandomPlane(ball, 1e-9, 5).size(), 1u);
   EXPECT_EQ(cutByRandomPlane(SurfletSet{}, 0.5, 5).size(), 0u);
+  EXPECT_THROW(cutByRandomPlane(ball, std::nan(""), 5), std::invalid_argument);
+  EXPECT_THROW(cutByRandomPlane(ball, 0, 5), std::invalid_argument);
 }
 
 TEST(Conditions, ScaledMeshHasTheDiameter)

@@ -71,7 +71,7 @@ moved(const PairHistogram& a, const PairHistogram& b)
 TEST(PairCounting, AllPairsEqualTheReference)
 {
   KernelGuard guard;
-  const auto set = mixedCloud(700, 5);
+  const auto set = mixedCloud(1449, 5); // 2^20 pairs
   const PairSource source(set);
   for (const Resolution r : {Resolution{5, 5, 5, 5}, Resolution{8, 8, 8, 8}, Resolution{1, 2, 3, 4},
                              Resolution{4, 7, 1, 9}, Resolution{64, 3, 3, 3}}) {
@@ -80,7 +80,7 @@ TEST(PairCounting, AllPairsEqualTheReference)
       if (!selectInstructionSet(instructions))
         continue;
       const auto h = countAllPairs(source, r, 2.5, 2);
-      EXPECT_EQ(h.features + h.rejected, 700u * 699 / 2);
+      EXPECT_EQ(h.features + h.rejected, 1449u * 1448 / 2);
       EXPECT_EQ(h.rejected, expected.rejected) << activeInstructionSet();
       // Single precision may put a pair within rounding of a border into the next bin.
       EXPECT_LE(moved(h, expected), 2u) << r.toString() << " " << activeInstructionSet();

@@ -270,6 +270,8 @@ TEST(SurfletPairFeature, MisuseGivesAnEmptyOutput)
     return out.empty();
   };
   EXPECT_FALSE(emptyAfter([](Feature&) {}));
+  EXPECT_TRUE(emptyAfter([](Feature& f) { f.setMaximumDistance(-1); }));
+  EXPECT_TRUE(emptyAfter([](Feature& f) { f.setMaximumDistance(std::nan("")); }));
   EXPECT_TRUE(emptyAfter([](Feature& f) { f.setInputNormals(nullptr); }));
   EXPECT_TRUE(emptyAfter([&](Feature& f) { f.setInputNormals(shapeCloud("cone", 9).normals); }));
   EXPECT_TRUE(emptyAfter([&](Feature& f) { f.setSearchSurface(shapeCloud("cone", 10).points); }));
@@ -378,6 +380,22 @@ TEST(SurfletPairHistogram, OtherResolutionsAndMisuse)
   small.setResolution({2, 2, 2, 2});
   small.compute(out);
   EXPECT_EQ(out.size(), 1u);
+  const auto emptyAfter = [&](const std::function<void(Estimation&)>& misuse) {
+    Estimation estimation;
+    estimation.setInputCloud(cloud.points);
+    estimation.setInputNormals(cloud.normals);
+    misuse(estimation);
+    Descriptor descriptor(2, 1);
+    estimation.compute(descriptor);
+    return descriptor.empty();
+  };
+  EXPECT_FALSE(emptyAfter([](Estimation&) {}));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setDeltaMax(INFINITY); }));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setDeltaMax(-1); }));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setDeltaMax(std::nan("")); }));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setNumberOfPairs(0); }));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setResolution({625, 1, 1, 1}); }));
+  EXPECT_TRUE(emptyAfter([](Estimation& e) { e.setResolution({-5, -5, 5, 5}); }));
   Estimation without_normals;
   without_normals.setInputCloud(cloud.points);
   Descriptor none(2, 1);

@@ -101,8 +101,13 @@ TEST(SensedSurface, HopelessInput)
   EXPECT_EQ(surfletsFromPoints(cloud, Eigen::Vector3f::Zero()).surflets.size(), 0u);
   for (int i = 0; i < 10; ++i)
     cloud.push_back({kNan, kNan, kNan});
-  cloud.is_dense = false;
-  EXPECT_EQ(surfletsFromPoints(cloud, Eigen::Vector3f::Zero()).rejected, 10u);
+  for (const bool claims_to_be_dense : {false, true}) { // PCL itself aborts on the latter
+    cloud.is_dense = claims_to_be_dense;
+    EXPECT_EQ(surfletsFromPoints(cloud, Eigen::Vector3f::Zero()).rejected, 10u);
+  }
+  SurfletSet poisoned = sampleShape(Shape::sphere(1), 500, 1);
+  poisoned.push_back({kNan, 0, 0, 0, 0, 1});
+  EXPECT_EQ(withEstimatedNormals(poisoned, 0.3).surflets.size(), 500u);
   EXPECT_EQ(surfletsFromDirections({}).surflets.size(), 0u);
 }
 

@@ -110,6 +110,15 @@ TEST(Classifier, UnknownThreshold)
   EXPECT_TRUE(classifier.classify(cup).unknown);
   EXPECT_EQ(classifier.classify(cup).best(), nullptr);
   EXPECT_EQ(classifier.classify(cup).ranking.size(), 2u); // the ranking is still told
+  // A plane's pairs all fall into a few bins that are full in a box: more typical than the box.
+  ModelDatabase boxes;
+  boxes.add(trainer.train("box", sampleShape(*shapeByName("box"), 3000, 1)));
+  HistogramClassifier box_classifier(boxes);
+  box_classifier.setUnknownThreshold(0.3);
+  const auto plane = sampleShape(Shape::plane(0.1, 0.1), 3000, 2);
+  EXPECT_LT(box_classifier.classify(plane).ranking[0].surprise, -0.3);
+  EXPECT_TRUE(box_classifier.classify(plane).unknown);
+  EXPECT_FALSE(box_classifier.classify(sampleShape(*shapeByName("box"), 3000, 2)).unknown);
   for (const auto criterion : {Criterion::Intersection, Criterion::ChiSquared2}) {
     classifier.setCriterion(criterion);
     const double good = classifier.classify(ball).ranking[0].score;

@@ -21,7 +21,8 @@ PCL_SURFLET_API SurfletSet displacedAlongNormals(const SurfletSet& set, double a
 
 /** \brief The share \p visible (in (0, 1]) of the surflets that lies on one side of a random plane
  * [Wahl 2007, Sec. 3.6.6]: of a set of even density, that share of the area. At least one surflet
- * remains of a set that is not empty. */
+ * remains of a set that is not empty. \throws std::invalid_argument if \p visible is out of range
+ */
 PCL_SURFLET_API SurfletSet cutByRandomPlane(const SurfletSet& set, double visible,
                                             std::uint64_t seed);
 

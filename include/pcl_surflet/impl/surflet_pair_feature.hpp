@@ -23,6 +23,11 @@ template <typename PointInT, typename PointNT, typename PointOutT>
 void
 pcl_surflet::SurfletPairFeature<PointInT, PointNT, PointOutT>::computeFeature(PointCloudOut& output)
 {
+  if (!(request_.maximum_distance >= 0)) {
+    PCL_ERROR("[pcl_surflet::%s::compute] The maximum distance must not be negative.\n",
+              this->feature_name_.c_str());
+    return;
+  }
   ConvertedSurflets converted;
   if (!detail::convertInput<PointInT, PointNT>(this->feature_name_, this->input_, this->surface_,
                                                this->normals_, *this->indices_, converted))

@@ -26,10 +26,9 @@ void
 pcl_surflet::SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>::computeFeature(
     PointCloudOut& output)
 {
-  if (request_.resolution.bins() != static_cast<int>(PointOutT::descriptorSize())) {
-    PCL_ERROR("[pcl_surflet::%s::compute] Resolution %s has %d bins, the output point type %d.\n",
-              this->feature_name_.c_str(), request_.resolution.toString().c_str(),
-              request_.resolution.bins(), static_cast<int>(PointOutT::descriptorSize()));
+  if (const auto problem = detail::requestProblem(request_, PointOutT::descriptorSize());
+      !problem.empty()) {
+    PCL_ERROR("[pcl_surflet::%s::compute] %s\n", this->feature_name_.c_str(), problem.c_str());
     return;
   }
   ConvertedSurflets converted;

@@ -92,9 +92,10 @@ public:
   {
     threads_ = threads;
   }
-  /** \brief Worst value that is still accepted as known. For Likelihood the largest surprise (nats
-   * per feature); for every other criterion the worst score. No threshold (default): all is known.
-   */
+  /** \brief Worst value that is still accepted as known. For Likelihood the largest magnitude of
+   * surprise (nats per feature): a shape whose features all fall into the model's fullest bins is
+   * foreign too, though its likelihood exceeds the model's own. For every other criterion the worst
+   * score. No threshold (default): all is known. */
   void
   setUnknownThreshold(std::optional<double> threshold)
   {
