@@ -184,9 +184,11 @@ private:
   double
   median(const std::string& group, const std::string& kind)
   {
-    auto t = times_[group][kind];
-    if (t.empty())
+    const auto& kinds = times_[group];
+    const auto found = kinds.find(kind); // operator[] would add a row to the table
+    if (found == kinds.end())
       return NAN;
+    auto t = found->second;
     std::sort(t.begin(), t.end());
     return t[t.size() / 2];
   }
