@@ -2,10 +2,11 @@
 
 #include "app_common.h"
 
+#include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/surface_file.h"
 #include "pcl_surflet/surflet_pair_histogram.h"
 
-#include <pcl/io/pcd_io.h>
+#include <pcl/conversions.h>
 #include <pcl/point_types.h>
 
 using namespace pcl_surflet;
@@ -58,13 +59,9 @@ describe(const std::string& path, const Options& o)
 std::string
 asPcd(const pcl::PointCloud<SurfletPairHistogram625>& descriptor)
 {
-  pcl::PCLPointCloud2 blob;
-  pcl::toPCLPointCloud2(descriptor, blob);
-  // Through memory, so that the file can be replaced as a whole.
-  std::string content = pcl::PCDWriter().generateHeaderBinary(blob, Eigen::Vector4f::Zero(),
-                                                              Eigen::Quaternionf::Identity());
-  content += "DATA binary\n";
-  return content.append(reinterpret_cast<const char*>(blob.data.data()), blob.data.size());
+  detail::PcdContent content;
+  pcl::toPCLPointCloud2(descriptor, content.cloud);
+  return detail::binaryPcd(content);
 }
 
 int

@@ -1,111 +1,128 @@
-/** \file
- * pcl_surflet_reduce: one mean surflet per cell. */
+// Reduces an oriented cloud to one mean surflet per cell.
+
+#include "app_common.h"
+
+#include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/mean_surflet_grid.h"
 
-#include <pcl/console/print.h>
-#include <pcl/io/pcd_io.h>
+#include <algorithm>
+#include <iostream>
 
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <exception>
-#include <filesystem>
-#include <memory>
-#include <string>
-#include <system_error>
-#include <vector>
+using namespace pcl_surflet;
+using namespace pcl_surflet::apps;
 
 namespace {
 
-constexpr int kWrongOptions = 1, kBadData = 2;
-
-constexpr const char* kHelp =
-    "Usage: pcl_surflet_reduce IN.pcd OUT.pcd -leaf S [options]\n"
-    "\n"
-    "Reduces an oriented cloud to the mean surflet of each cubic cell: position and normal\n"
-    "averaged, the normal scaled to unit length. Other fields are those of the cell's first\n"
-    "point. Cells whose normals cancel are left out and counted.\n"
-    "\n"
-    "  -leaf S          edge of a cell in the cloud's unit (required)\n"
-    "  -min_normal L    leave out cells whose mean normal is shorter, in [0, 1] (0.1)\n"
-    "  -csv             print input,output,cancelled_cells,left_out as CSV to stdout\n"
-    "  -h               this help\n"
-    "\n"
-    "Exit status: 0 done, 1 wrong options, 2 bad data or files.\n";
+constexpr const char* kProgram = "pcl_surflet_reduce";
 
 struct Options {
-  std::vector<std::string> files;
+  std::string in, out;
   double leaf = 0, min_normal = 0.1;
-  bool csv = false, help = false;
+  bool csv = false;
 };
 
-bool
-parseNumber(const char* text, double& value)
+struct Counts {
+  std::size_t input = 0, output = 0, cancelled_cells = 0, left_out = 0;
+};
+
+[[noreturn]] void
+refuse(const std::string& path, const std::string& why)
 {
-  char* end = nullptr;
-  value = std::strtod(text, &end);
-  return end != text && *end == '\0';
+  throw DataError("cannot reduce '" + path + "': " + why);
 }
 
-/** \brief Reads the command line; false, having named the fault, if it is wrong. */
-bool
-parse(int argc, char** argv, Options& options)
+void
+requireField(const std::string& path, const pcl::PCLPointCloud2& cloud, const std::string& name,
+             const std::string& remedy)
 {
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    if (word == "-h" || word == "--help")
-      options.help = true;
-    else if (word == "-csv")
-      options.csv = true;
-    else if (word == "-leaf" || word == "-min_normal") {
-      double& value = word == "-leaf" ? options.leaf : options.min_normal;
-      if (++i == argc || !parseNumber(argv[i], value)) {
-        pcl::console::print_error("%s needs a number%s%s\n", word.c_str(), i < argc ? ", not " : "",
-                                  i < argc ? argv[i] : "");
-        return false;
-      }
-    }
-    else if (word.size() > 1 && word[0] == '-') {
-      pcl::console::print_error("unknown option %s (see -h)\n", word.c_str());
-      return false;
-    }
-    else
-      options.files.push_back(word);
-  }
-  if (options.help)
-    return true;
-  if (options.files.size() != 2)
-    pcl::console::print_error("two files are needed: IN.pcd OUT.pcd (see -h)\n");
-  else if (!(options.leaf > 0 && options.leaf < HUGE_VAL))
-    pcl::console::print_error("-leaf must be given, positive and finite\n");
-  else if (!(options.min_normal >= 0 && options.min_normal <= 1))
-    pcl::console::print_error("-min_normal must lie in [0, 1]\n");
+  const auto fits = [&](const pcl::PCLPointField& f) {
+    return f.name == name && f.datatype == pcl::PCLPointField::FLOAT32 && f.count == 1;
+  };
+  if (std::none_of(cloud.fields.begin(), cloud.fields.end(), fits))
+    refuse(path,
+           "it has no field " + name + " of type FLOAT32 (TYPE F, SIZE 4, COUNT 1); " + remedy);
+}
+
+detail::PcdContent
+readOriented(const std::string& path)
+{
+  detail::PcdContent content;
+  if (const auto problem = detail::readPcd(path, content); !problem.empty())
+    refuse(path, problem + "; give a PCD file of oriented points");
+  for (const char* name : {"x", "y", "z"})
+    requireField(path, content.cloud, name, "give a PCD file of oriented points");
+  for (const char* name : {"normal_x", "normal_y", "normal_z"})
+    requireField(path, content.cloud, name,
+                 "estimate normals first, for instance by pcl_normal_estimation");
+  if (content.size() == 0)
+    refuse(path, "it has no points; give a PCD file of oriented points");
+  return content;
+}
+
+/** \brief Puts the mean surflets in place of the points of \p content; the sensor stays. */
+Counts
+reduce(const Options& o, detail::PcdContent& content)
+{
+  Counts counts;
+  counts.input = content.size();
+  MeanSurfletGrid<pcl::PCLPointCloud2> grid(true);
+  grid.setInputCloud(pcl::make_shared<pcl::PCLPointCloud2>(std::move(content.cloud)));
+  grid.setLeafSize(o.leaf);
+  grid.setMinimumMeanNormal(o.min_normal);
+  grid.filter(content.cloud);
+  counts.output = content.size();
+  counts.cancelled_cells = grid.getNumberOfCancelledCells();
+  counts.left_out = grid.getRemovedIndices()->size();
+  // The filter prints its errors, which runMain() silences; points that are neither left out nor
+  // in a cell tell of the only one that can be left.
+  if (counts.output == 0 && counts.left_out == 0)
+    refuse(o.in, "cells of edge " + number(o.leaf) +
+                     " are too small for the cloud's extent; give a larger -leaf");
+  if (counts.output == 0)
+    refuse(o.in, "no cell has a mean surflet: " + std::to_string(counts.input) +
+                     " points are not finite or their normals cancel; check the normals, or "
+                     "lower -leaf or -min_normal");
+  return counts;
+}
+
+void
+report(const Options& o, const Counts& c)
+{
+  if (o.csv)
+    std::cout << "input,output,cancelled_cells,left_out\n"
+              << c.input << "," << c.output << "," << c.cancelled_cells << "," << c.left_out
+              << "\n";
   else
-    return true;
-  return false;
+    note("wrote '" + o.out + "': " + std::to_string(c.input) + " points -> " +
+         std::to_string(c.output) + " mean surflets; " + std::to_string(c.cancelled_cells) +
+         " cells with cancelling normals, " + std::to_string(c.left_out) + " points left out");
 }
 
-/** \brief Writes beside the target and renames, so that no half-written file is left. */
-bool
-save(const std::string& file, const pcl::PCLPointCloud2& cloud)
+int
+run(int argc, char** argv)
 {
-  std::error_code ignored;
-  if (std::filesystem::exists(file, ignored) && !std::filesystem::is_regular_file(file, ignored)) {
-    pcl::console::print_error("%s is not a regular file\n", file.c_str());
-    return false; // renaming would replace a device or a link's target
-  }
-  const std::string temporary = file + ".part";
-  try {
-    if (pcl::PCDWriter().writeBinary(temporary, cloud) == 0 &&
-        std::rename(temporary.c_str(), file.c_str()) == 0)
-      return true;
-  }
-  catch (const std::exception& e) {
-    pcl::console::print_error("%s\n", e.what());
-  }
-  std::remove(temporary.c_str());
-  pcl::console::print_error("cannot write %s\n", file.c_str());
-  return false;
+  Options o;
+  CommandLine line(kProgram, "IN.pcd OUT.pcd -leaf S",
+                   "Reduces an oriented cloud to the mean surflet of each cubic cell: position and "
+                   "normal\naveraged, the normal scaled to unit length. Other fields are those of "
+                   "the cell's first\npoint. Cells whose normals cancel are left out and counted.");
+  line.real("-leaf", "S", "edge of a cell in the cloud's unit (needed)", o.leaf, 1e-30, 1e30);
+  line.real("-min_normal", "L",
+            "leave out cells whose mean normal is shorter, in [0, 1], default " +
+                number(o.min_normal),
+            o.min_normal, 0, 1);
+  line.flag("-csv", "print input,output,cancelled_cells,left_out as a table", o.csv);
+  if (!line.parse(argc, argv))
+    return kOk;
+  line.requireFiles(2, 2);
+  line.require("-leaf");
+  o.in = line.files()[0];
+  o.out = line.files()[1];
+  auto content = readOriented(o.in);
+  const Counts counts = reduce(o, content);
+  writeFile(o.out, detail::binaryPcd(content));
+  report(o, counts);
+  return kOk;
 }
 
 } // namespace
@@ -113,38 +130,5 @@ save(const std::string& file, const pcl::PCLPointCloud2& cloud)
 int
 main(int argc, char** argv)
 {
-  Options options;
-  if (!parse(argc, argv, options))
-    return kWrongOptions;
-  if (options.help) {
-    std::fputs(kHelp, stdout);
-    return 0;
-  }
-  auto cloud = std::make_shared<pcl::PCLPointCloud2>();
-  if (pcl::io::loadPCDFile(options.files[0], *cloud) < 0) {
-    pcl::console::print_error("cannot read %s\n", options.files[0].c_str());
-    return kBadData;
-  }
-  pcl_surflet::MeanSurfletGrid<pcl::PCLPointCloud2> grid(true);
-  grid.setInputCloud(cloud);
-  grid.setLeafSize(options.leaf);
-  grid.setMinimumMeanNormal(options.min_normal);
-  pcl::PCLPointCloud2 cells;
-  grid.filter(cells);
-  const std::size_t input = std::size_t{cloud->width} * cloud->height, output = cells.width;
-  if (output == 0) {
-    pcl::console::print_error("%s: no cell has a mean surflet\n", options.files[0].c_str());
-    return kBadData;
-  }
-  if (!save(options.files[1], cells))
-    return kBadData;
-  const std::size_t left_out = grid.getRemovedIndices()->size();
-  if (options.csv)
-    std::printf("input,output,cancelled_cells,left_out\n%zu,%zu,%zu,%zu\n", input, output,
-                grid.getNumberOfCancelledCells(), left_out);
-  else
-    pcl::console::print_highlight("%zu points -> %zu mean surflets; %zu cells with cancelling "
-                                  "normals, %zu points left out\n",
-                                  input, output, grid.getNumberOfCancelledCells(), left_out);
-  return 0;
+  return runMain(kProgram, [&] { return run(argc, argv); });
 }

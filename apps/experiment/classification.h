@@ -4,10 +4,11 @@
 #pragma once
 
 #include "experiment/objects.h"
+#include "experiment/output.h"
 #include "pcl_surflet/recognition/histogram_classifier.h"
 
 #include <cstdint>
-#include <functional>
+#include <utility>
 
 namespace pcl_surflet {
 namespace apps {
@@ -44,8 +45,6 @@ struct ConditionResult {
 
 /** \brief Bounds of the 95 % confidence interval of a rate (Wilson). */
 std::pair<double, double> confidenceInterval(std::uint64_t right, std::uint64_t tests);
-
-using ProgressFunction = std::function<void(std::size_t done, const std::string& what)>;
 
 /** \brief Trains one model an object by training A (meshes). */
 ModelDatabase trainObjects(const std::vector<ExperimentObject>& objects,

@@ -1,11 +1,10 @@
 #include "experiment/gallery.h"
 
 #include "app_common.h"
+#include "experiment/output.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <sstream>
 
 namespace pcl_surflet {
@@ -103,16 +102,6 @@ scriptFor(const std::vector<ExperimentObject>& objects)
   return script.str();
 }
 
-/** \brief \p text as one word of a POSIX shell. */
-std::string
-shellQuoted(const std::string& text)
-{
-  std::string quoted = "'";
-  for (const char c : text)
-    quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return quoted + "'";
-}
-
 } // namespace
 
 std::string
@@ -122,10 +111,7 @@ drawGallery(const std::vector<ExperimentObject>& objects, const ModelDatabase& d
   writeFile(directory + "/points.dat", pointData(objects));
   writeFile(directory + "/histograms.dat", histogramData(database));
   writeFile(directory + "/gallery.gp", scriptFor(objects));
-  const std::string command = "cd " + shellQuoted(directory) + " && gnuplot gallery.gp";
-  if (std::system(command.c_str()) != 0)
-    return "gnuplot is missing or failed; install gnuplot-nox and run it on gallery.gp";
-  return {};
+  return drawByGnuplot(directory, "gallery.gp");
 }
 
 } // namespace apps

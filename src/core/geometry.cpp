@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 #include <vector>
 
 namespace pcl_surflet {
@@ -30,92 +31,136 @@ pointsOf(const SurfletSet& set)
   return points;
 }
 
-/** \brief A k-d tree of boxes for farthest-point queries. */
-class FarthestTree {
+/** \brief A k-d tree of bounding balls for the search of the farthest pair.
+ *
+ * Pairs of nodes are split as long as their balls may hold a longer pair than the best one known.
+ * Balls instead of boxes: those of small patches far apart are tight whatever their orientation, so
+ * also on a sphere about its centroid each patch is left with few partners. */
+class FarthestPair {
 public:
-  explicit FarthestTree(std::vector<Point> points) : points_(std::move(points))
+  explicit FarthestPair(std::vector<Point> points) : points_(std::move(points))
   {
     build(0, points_.size());
+    best_ = sweep();
+    search(0, 0);
   }
 
-  /** \brief Squared distance of the point farthest from \p q if above \p best, else \p best. */
   double
-  farther(const Point& q, double best) const
+  distance() const
   {
-    return search(0, q, best);
+    return best_;
   }
 
 private:
-  static constexpr std::size_t kLeaf = 16;
+  static constexpr std::size_t kLeaf = 8;
 
   struct Node {
-    Point low, high;
+    Point centre;
+    double radius;
     std::size_t begin, end;
     std::size_t right = 0; ///< 0: a leaf; the left child is the next node
   };
+
+  /** \brief Ball about the middle of the bounding box, and the box's longest axis. */
+  std::pair<Node, std::size_t>
+  bound(std::size_t begin, std::size_t end) const
+  {
+    Point low = points_[begin], high = points_[begin];
+    for (std::size_t i = begin; i < end; ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], points_[i][k]);
+        high[k] = std::max(high[k], points_[i][k]);
+      }
+    Node node{{}, 0, begin, end, 0};
+    std::size_t axis = 0;
+    for (std::size_t k = 0; k < 3; ++k) {
+      node.centre[k] = (low[k] + high[k]) / 2;
+      if (high[k] - low[k] > high[axis] - low[axis])
+        axis = k;
+    }
+    for (std::size_t i = begin; i < end; ++i)
+      node.radius = std::max(node.radius, squaredDistance(points_[i], node.centre));
+    node.radius = std::sqrt(node.radius);
+    return {node, axis};
+  }
 
   std::size_t
   build(std::size_t begin, std::size_t end)
   {
     const std::size_t self = nodes_.size();
-    Node node{points_[begin], points_[begin], begin, end, 0};
-    for (std::size_t i = begin; i < end; ++i)
-      for (std::size_t k = 0; k < 3; ++k) {
-        node.low[k] = std::min(node.low[k], points_[i][k]);
-        node.high[k] = std::max(node.high[k], points_[i][k]);
-      }
+    const auto [node, axis] = bound(begin, end);
     nodes_.push_back(node);
     if (end - begin <= kLeaf)
       return self;
-    std::size_t axis = 0;
-    for (std::size_t k = 1; k < 3; ++k)
-      if (node.high[k] - node.low[k] > node.high[axis] - node.low[axis])
-        axis = k;
     const auto at = [&](std::size_t i) { return points_.begin() + static_cast<std::ptrdiff_t>(i); };
     const std::size_t middle = (begin + end) / 2;
+    const std::size_t along = axis;
     std::nth_element(at(begin), at(middle), at(end),
-                     [axis](const Point& a, const Point& b) { return a[axis] < b[axis]; });
+                     [along](const Point& a, const Point& b) { return a[along] < b[along]; });
     build(begin, middle);
     const std::size_t right = build(middle, end);
     nodes_[self].right = right;
     return self;
   }
 
-  static double
-  reach(const Node& node, const Point& q)
+  /** \brief A long pair to begin with: from any point to the farthest, and on from there. */
+  double
+  sweep() const
   {
-    double sum = 0;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double d = std::max(std::abs(q[k] - node.low[k]), std::abs(node.high[k] - q[k]));
-      sum += d * d;
+    std::size_t from = 0;
+    double longest = 0;
+    for (int round = 0; round < 4; ++round) {
+      std::size_t far = from;
+      double far_squared = 0;
+      for (std::size_t i = 0; i < points_.size(); ++i)
+        if (const double d = squaredDistance(points_[from], points_[i]); d > far_squared) {
+          far_squared = d;
+          far = i;
+        }
+      longest = std::max(longest, std::sqrt(far_squared));
+      from = far;
     }
-    return sum;
+    return longest;
   }
 
+  /** \brief No pair of a point of \p a and one of \p b is longer than this. */
   double
-  search(std::size_t index, const Point& q, double best) const
+  reach(std::size_t a, std::size_t b) const
   {
-    const Node& node = nodes_[index];
-    if (node.right == 0) {
-      for (std::size_t i = node.begin; i < node.end; ++i)
-        best = std::max(best, squaredDistance(points_[i], q));
-      return best;
-    }
-    std::size_t near = index + 1, far = node.right;
-    double near_reach = reach(nodes_[near], q), far_reach = reach(nodes_[far], q);
-    if (near_reach > far_reach) {
-      std::swap(near, far);
-      std::swap(near_reach, far_reach);
-    }
-    if (far_reach > best)
-      best = search(far, q, best);
-    if (near_reach > best)
-      best = search(near, q, best);
-    return best;
+    return std::sqrt(squaredDistance(nodes_[a].centre, nodes_[b].centre)) + nodes_[a].radius +
+           nodes_[b].radius;
+  }
+
+  void
+  searchLeaves(const Node& a, const Node& b)
+  {
+    double longest = best_ * best_;
+    for (std::size_t i = a.begin; i < a.end; ++i)
+      for (std::size_t j = b.begin; j < b.end; ++j)
+        longest = std::max(longest, squaredDistance(points_[i], points_[j]));
+    best_ = std::max(best_, std::sqrt(longest));
+  }
+
+  /** \brief Splits the larger node, the more promising half first. */
+  void
+  search(std::size_t a, std::size_t b)
+  {
+    if (nodes_[a].right == 0 && nodes_[b].right == 0)
+      return searchLeaves(nodes_[a], nodes_[b]);
+    if (nodes_[a].right == 0 || (nodes_[b].right != 0 && nodes_[b].radius > nodes_[a].radius))
+      std::swap(a, b);
+    std::size_t first = a + 1, second = nodes_[a].right;
+    if (reach(second, b) > reach(first, b))
+      std::swap(first, second);
+    if (reach(first, b) > best_)
+      search(first, b);
+    if (reach(second, b) > best_)
+      search(second, b);
   }
 
   std::vector<Point> points_;
   std::vector<Node> nodes_;
+  double best_ = 0;
 };
 
 /** \brief Squared distance from surflet \p i to its eighth neighbour, by looking at all. */
@@ -145,24 +190,7 @@ farthestDistance(const SurfletSet& set)
     return 0;
   // In unit scale, so that squares of absurd coordinates stay finite.
   const UnitSurflets unit = toUnitScale(set);
-  const auto points = pointsOf(unit.set);
-  // An end of the longest pair (length L) lies at least L - r_max from the centroid.
-  std::vector<double> radius(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i)
-    radius[i] = std::sqrt(squaredDistance(points[i], {0, 0, 0}));
-  std::vector<std::size_t> order(points.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return radius[a] > radius[b]; });
-  const FarthestTree tree(points);
-  const double r_max = radius[order.front()];
-  double best = 0;
-  for (const auto i : order) {
-    if (radius[i] + r_max < std::sqrt(best))
-      break;
-    best = tree.farther(points[i], best);
-  }
-  return std::sqrt(best) / unit.scale;
+  return FarthestPair(pointsOf(unit.set)).distance() / unit.scale;
 }
 
 SurfaceDensity

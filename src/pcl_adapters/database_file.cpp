@@ -1,9 +1,9 @@
 #include "pcl_surflet/database_file.h"
 
 #include "core/atomic_file.h"
-#include "pcl_adapters/pcd_guard.h"
+#include "pcl_adapters/pcd_content.h"
 
-#include <pcl/io/pcd_io.h>
+#include <pcl/common/io.h>
 
 #include <algorithm>
 #include <array>
@@ -258,18 +258,10 @@ modelsOf(const TableReader& reader, std::size_t rows, PenaltyParameters& penalty
 pcl::PCLPointCloud2
 readTable(const std::string& path)
 {
-  if (const auto problem = detail::pcdProblem(path); !problem.empty())
+  detail::PcdContent content;
+  if (const auto problem = detail::readPcd(path, content); !problem.empty())
     throw DatabaseFileError("cannot read the database '" + path + "': " + problem);
-  pcl::PCLPointCloud2 table;
-  bool read = false;
-  try {
-    read = pcl::PCDReader().read(path, table) >= 0;
-  }
-  catch (const std::exception&) { // PCL reports some damage by exceptions of several kinds
-  }
-  if (!read || table.data.size() < std::size_t{table.point_step} * table.width * table.height)
-    throw DatabaseFileError("cannot read the database '" + path + "': its data is damaged");
-  return table;
+  return std::move(content.cloud);
 }
 
 } // namespace
@@ -279,18 +271,16 @@ saveDatabase(const ModelDatabase& database, const std::string& path)
 {
   if (database.empty())
     throw DatabaseFileError("cannot write the database '" + path + "': it has no models");
-  auto table = emptyTable(static_cast<std::uint32_t>(database.resolution().bins()));
+  detail::PcdContent content;
+  auto& table = content.cloud;
+  table = emptyTable(static_cast<std::uint32_t>(database.resolution().bins()));
   for (std::size_t m = 0; m < database.size(); ++m)
     for (std::size_t k = 0; k < database[m].members.size(); ++k) {
       Row row = rowOf(database[m], k, database.getPenalty());
       appendRow(row, table);
     }
   table.row_step = table.point_step * table.width;
-  std::string content = pcl::PCDWriter().generateHeaderBinary(table, Eigen::Vector4f::Zero(),
-                                                              Eigen::Quaternionf::Identity());
-  content += "DATA binary\n";
-  content.append(reinterpret_cast<const char*>(table.data.data()), table.data.size());
-  if (const auto problem = detail::replaceFile(path, content); !problem.empty())
+  if (const auto problem = detail::replaceFile(path, detail::binaryPcd(content)); !problem.empty())
     throw DatabaseFileError("cannot write the database '" + path + "': " + problem);
 }
 

@@ -2,11 +2,12 @@
 
 #include "core/file_content.h"
 #include "core/mesh_readers.h"
-#include "pcl_adapters/pcd_guard.h"
+#include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/sensed_surface.h"
 
-#include <pcl/io/pcd_io.h>
+#include <pcl/point_cloud.h>
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <array>
@@ -89,45 +90,21 @@ valueAt(const pcl::PCLPointCloud2& cloud, std::size_t point, const pcl::PCLPoint
   return static_cast<float>(value);
 }
 
-struct RawCloud {
-  pcl::PCLPointCloud2 cloud;
-  Eigen::Vector3f sensor;
-
-  std::size_t
-  size() const
-  {
-    return std::size_t{cloud.width} * cloud.height;
-  }
-};
-
-RawCloud
-readPcd(const std::string& path)
+detail::PcdContent
+readCloud(const std::string& path)
 {
   constexpr const char* kRemedy = "export it again as PCD";
   detail::checkedFileSize(path);
-  if (const auto problem = detail::pcdProblem(path); !problem.empty())
+  detail::PcdContent raw;
+  if (const auto problem = detail::readPcd(path, raw); !problem.empty())
     refuse(path, problem, kRemedy);
-  RawCloud raw;
-  Eigen::Vector4f origin = Eigen::Vector4f::Zero();
-  Eigen::Quaternionf orientation;
-  int version = 0;
-  bool read = false;
-  try {
-    read = pcl::PCDReader().read(path, raw.cloud, origin, orientation, version) >= 0;
-  }
-  catch (const std::exception&) { // PCL reports some damage by exceptions of several kinds
-  }
-  if (!read || raw.cloud.point_step == 0 ||
-      raw.cloud.data.size() / raw.cloud.point_step < raw.size())
-    refuse(path, "its data is damaged", kRemedy);
   if (raw.size() == 0)
     refuse(path, "it has no points", kRemedy);
-  raw.sensor = origin.head<3>();
   return raw;
 }
 
 pcl::PointCloud<pcl::PointXYZ>
-coordinates(const RawCloud& raw, const Columns& xyz)
+coordinates(const detail::PcdContent& raw, const Columns& xyz)
 {
   pcl::PointCloud<pcl::PointXYZ> out(raw.cloud.width, raw.cloud.height);
   out.is_dense = false; // PCL then looks for itself, whatever the file says
@@ -154,13 +131,13 @@ withEstimatedNormals(const std::string& path, const pcl::PointCloud<pcl::PointXY
 SurfaceFile
 loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
 {
-  const RawCloud raw = readPcd(path);
+  const detail::PcdContent raw = readCloud(path);
   const Columns xyz = columns(raw.cloud, {"x", "y", "z"});
   if (xyz[0] == nullptr)
     refuse(path, "it has no fields x, y, z of type F", "give a cloud of points");
   const Columns n = columns(raw.cloud, {"normal_x", "normal_y", "normal_z"});
   if (n[0] == nullptr)
-    return withEstimatedNormals(path, coordinates(raw, xyz), raw.sensor, options);
+    return withEstimatedNormals(path, coordinates(raw, xyz), raw.origin.head<3>(), options);
   ConvertedSurflets converted;
   for (std::size_t i = 0; i < raw.size(); ++i)
     converted.rejected += !converted.surflets.appendChecked(

@@ -5,7 +5,8 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train", "classify", "feature", "info", "generate_shape"};
+const char* const kApps[] = {"train",          "classify",   "feature", "info",
+                             "generate_shape", "experiment", "reduce"};
 
 struct WrongLine {
   const char* app;
@@ -49,6 +50,7 @@ TEST(Usage, HelpNamesEveryOption)
         "-threads", "-k", "-csv"}},
       {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
       {"info", {"-csv"}},
+      {"reduce", {"-leaf", "-min_normal", "-csv"}},
       {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
   for (const auto& [app, names] : options) {
     const std::string help = run(app, {"-h"}).out;

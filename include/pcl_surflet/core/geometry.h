@@ -12,9 +12,9 @@ namespace pcl_surflet {
 /** \brief Largest distance between two surflets, exact; 0 for fewer than two
  * (delta_max, [Wahl 2007, Sec. 2.3]).
  *
- * Searches a k-d tree for the farthest point of each surflet that can be an end of the longest
- * pair, best candidates first: far below O(n^2) unless all surflets lie on one sphere about their
- * centroid, where about one in ten pairs is still looked at. */
+ * Splits pairs of tree nodes as long as they may hold a longer pair than the best one known: far
+ * below O(n^2), also for a sphere, where every surflet has partners almost as far as the farthest.
+ */
 PCL_SURFLET_API double farthestDistance(const SurfletSet& set);
 
 /** \brief How evenly the surflets cover their surface. */

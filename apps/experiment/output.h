@@ -1,0 +1,34 @@
+/** \file
+ * What the experiments share: where results go, how progress shows. */
+#pragma once
+
+#include "app_common.h"
+
+#include <cstddef>
+#include <functional>
+#include <string>
+
+namespace pcl_surflet {
+namespace apps {
+
+/** \brief Makes the directory \p path and those above it. \throws DataError */
+void makeDirectory(const std::string& path);
+
+/** \brief Runs gnuplot on \p script in \p directory.
+ * \return an empty string, or why there is no picture (gnuplot missing or failing): an
+ * experiment's numbers do not depend on it */
+std::string drawByGnuplot(const std::string& directory, const std::string& script);
+
+using ProgressFunction = std::function<void(std::size_t done, const std::string& what)>;
+
+/** \brief Runs \p work with a function that shows its progress over \p steps. */
+template <class Result, class Work>
+Result
+withProgress(std::size_t steps, const Work& work)
+{
+  Progress progress(steps);
+  return work([&](std::size_t done, const std::string& what) { progress.show(done, what); });
+}
+
+} // namespace apps
+} // namespace pcl_surflet
