@@ -5,7 +5,7 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train", "classify", "feature", "info", "generate_shape"};
+const char* const kApps[] = {"train", "classify", "feature", "info", "generate", "generate_shape"};
 
 struct WrongLine {
   const char* app;
@@ -49,6 +49,9 @@ TEST(Usage, HelpNamesEveryOption)
         "-threads", "-k", "-csv"}},
       {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
       {"info", {"-csv"}},
+      {"generate",
+       {"-out", "-poses", "-empty", "-present", "-clutter", "-unknown", "-background", "-size",
+        "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
       {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
   for (const auto& [app, names] : options) {
     const std::string help = run(app, {"-h"}).out;
@@ -70,6 +73,8 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
                {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
                {"info", {}, "DB.pcd"},
                {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
+               {"generate", {"cup"}, "-out"},
+               {"generate", {"-out", "s.pcd"}, "ITEM"},
                {"generate_shape", {"sphere"}, "OUT"},
                {"generate_shape", {"sphere", "a.pcd", "b"}, "'b'"}});
 }
@@ -120,6 +125,13 @@ TEST(Usage, ValuesOutOfRangeAreNamed)
 TEST(Usage, WrongNamesAreNamed)
 {
   expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
+               {"generate", {"-out", "s.pcd", "-background", "sea", "cup"}, "bowl"},
+               {"generate", {"-out", "s.pcd", "-posture", "proud", "cup"}, "leaning"},
+               {"generate", {"-out", "s.pcd", "cup:2"}, "'cup'"},
+               {"generate", {"-out", "s.pcd", "a.off:2:w"}, "a.off:2:w"},
+               {"generate", {"-out", "s.pcd", "a.off:two"}, "DIAMETER"},
+               {"generate", {"-out", "s.pcd", "-present", "2", "cup"}, "-present"},
+               {"generate", {"-out", "s.pcd", "-unknown", "1", "cup"}, "-unknown"},
                {"generate_shape", {"dodecahedron", "a.pcd"}, "wine_glass"},
                {"generate_shape", {"sphere", "a.stl"}, ".off"}});
 }
