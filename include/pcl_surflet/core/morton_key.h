@@ -90,6 +90,19 @@ public:
     return key;
   }
 
+  /** \brief The key of depth \p depth whose words are \p words; bits below the depth are dropped.
+   */
+  static constexpr BasicMortonKey
+  fromWords(const std::array<std::uint64_t, Words>& words, int depth)
+  {
+    BasicMortonKey key;
+    key.words_ = words;
+    key.depth_ = max_depth;
+    key = key.prefix(depth);
+    key.depth_ = depth;
+    return key;
+  }
+
   constexpr int
   depth() const
   {
@@ -162,6 +175,11 @@ public:
     return text;
   }
 
+  constexpr const std::array<std::uint64_t, Words>&
+  words() const
+  {
+    return words_;
+  }
   constexpr std::uint64_t
   word(int w) const
   {
