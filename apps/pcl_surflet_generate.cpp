@@ -1,10 +1,9 @@
 // Makes labelled scenes of objects on a background, with the truth about them.
 
 #include "app_common.h"
+#include "scene_items.h"
 
-#include "pcl_surflet/core/conditions.h"
 #include "pcl_surflet/core/scene_generator.h"
-#include "pcl_surflet/surface_file.h"
 
 #include <cstring>
 
@@ -18,69 +17,6 @@ constexpr const char* kProgram = "pcl_surflet_generate";
 struct Outputs {
   std::string scene, poses, empty;
 };
-
-/** \brief \p text cut at every \p separator. */
-std::vector<std::string>
-parts(const std::string& text, char separator)
-{
-  std::vector<std::string> out(1);
-  for (const char c : text)
-    if (c == separator)
-      out.emplace_back();
-    else
-      out.back() += c;
-  return out;
-}
-
-/** \brief The mesh turned so that \p axis becomes z. */
-TriangleMesh
-turnedUp(TriangleMesh mesh, const std::string& axis)
-{
-  for (auto& p : mesh.vertices)
-    if (axis == "y") // (x, y, z) -> (x, -z, y)
-      p = {p[0], -p[2], p[1]};
-    else if (axis == "x") // -> (-z, y, x)
-      p = {-p[2], p[1], p[0]};
-  return mesh;
-}
-
-SceneItem
-shapeItem(const Shape& shape, const std::vector<std::string>& spec)
-{
-  if (spec.size() > 1)
-    throw UsageError("'" + spec[0] +
-                     "' is a ready-made shape and has its size and posture; give "
-                     "its name alone, or a mesh file");
-  return sceneItem(spec[0], shape);
-}
-
-/** \brief SHAPE or FILE[:DIAMETER[:UP]]. */
-SceneItem
-itemOf(const std::string& text)
-{
-  const auto spec = parts(text, ':');
-  if (const auto shape = shapeByName(spec[0]))
-    return shapeItem(*shape, spec);
-  if (spec.size() > 3 || (spec.size() == 3 && spec[2] != "x" && spec[2] != "y" && spec[2] != "z"))
-    throw UsageError("'" + text + "' is not FILE:DIAMETER:UP, where UP is x, y or z");
-  const double diameter =
-      spec.size() > 1 ? parseReal("DIAMETER of " + spec[0], spec[1], 1e-6, 1e6) : 0;
-  const SurfaceFile file = loadSurface(spec[0]);
-  if (!file.mesh)
-    throw DataError(spec[0] + ": holds points; give a file with faces, or the name of a shape");
-  const TriangleMesh& mesh = *file.mesh;
-  const TriangleMesh upright = spec.size() == 3 ? turnedUp(mesh, spec[2]) : mesh;
-  return sceneItem(stemOf(spec[0]), diameter > 0 ? scaledToDiameter(upright, diameter) : upright);
-}
-
-std::vector<SceneItem>
-itemsOf(const std::vector<std::string>& texts)
-{
-  std::vector<SceneItem> items;
-  for (const auto& text : texts)
-    items.push_back(itemOf(text));
-  return items;
-}
 
 /** \brief Binary PCD with x y z normal_x normal_y normal_z and, for scenes, label and instance. */
 std::string
@@ -129,50 +65,6 @@ asPoses(const Scene& scene)
     text += "," + std::to_string(item.surflets) + "\n";
   }
   return text;
-}
-
-template <class Value>
-void
-addChoice(CommandLine& line, const std::string& name, const std::string& help, Value& target,
-          const std::vector<std::pair<std::string, Value>>& choices)
-{
-  std::string names;
-  for (const auto& choice : choices)
-    names += (names.empty() ? "" : ", ") + choice.first;
-  line.option(name, "NAME", help + ": " + names, [=, &target](const std::string& text) {
-    for (const auto& choice : choices)
-      if (choice.first == text) {
-        target = choice.second;
-        return;
-      }
-    throw UsageError("option " + name + ": there is no '" + text + "'; the names are " + names);
-  });
-}
-
-void
-addArrangement(CommandLine& line, SceneOptions& o)
-{
-  addChoice<Background>(line, "-background", "what carries the objects, default plane",
-                        o.background,
-                        {{"none", Background::None},
-                         {"plane", Background::Plane},
-                         {"corner", Background::Corner},
-                         {"box", Background::Box},
-                         {"bowl", Background::Bowl}});
-  line.real("-size", "S", "edge of the background, or opening of the bowl, default 1", o.size, 1e-6,
-            1e6);
-  line.real("-wall", "H", "height of walls, default 0.3", o.wall_height, 1e-6, 1e6);
-  addChoice<Posture>(line, "-posture", "how objects stand, default upright", o.posture,
-                     {{"upright", Posture::Upright},
-                      {"lying", Posture::Lying},
-                      {"leaning", Posture::Leaning},
-                      {"mixed", Posture::Mixed}});
-  addChoice<Spacing>(line, "-spacing", "apart (default) or pushed together", o.spacing,
-                     {{"apart", Spacing::Apart}, {"pile", Spacing::Pile}});
-  line.real("-factor", "F",
-            "apart: centroids at least F times the smaller bounding radius apart, default 1",
-            o.distance_factor, 0, 1e6);
-  line.real("-gap", "G", "pile: gap along the direction of pushing, default 0", o.gap, 0, 1e6);
 }
 
 int

@@ -1,0 +1,127 @@
+/** \file
+ * Scene interpretation: segments and names the objects of a scene in one go. */
+#pragma once
+
+#include "pcl_surflet/core/surflet_set.h"
+#include "pcl_surflet/recognition/model_database.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+
+/** \brief What is done about what carries the objects [Wahl 2007, Sec. 5.4, step 1]. */
+enum class BackgroundTreatment {
+  Ignore,  ///< nothing: background models of the database take no part
+  Exclude, ///< strategy A: the caller has removed it, see cellsAwayFrom(); otherwise as Ignore
+  Model    ///< strategy B: the database's background models identify it, and it is ignored
+};
+
+/** \brief Constants of the seven steps. Those marked (*) the dissertation leaves open. */
+struct DissertationParameters {
+  BackgroundTreatment background = BackgroundTreatment::Ignore;
+
+  /** \brief Step 1: pairs s with a distance of at most the largest delta_max of the objects, n. The
+   * dissertation draws 232,000, and 100,000 where the background is excluded. */
+  std::uint64_t pairs = 232000;
+  /** \brief Step 1 (*): gives up after this many draws per wanted pair. A draw is in vain if the
+   * pair is too long; in a scene much larger than the models nearly all are. */
+  std::uint64_t draws_per_pair = 100;
+  double lambda_h = 1.3; ///< step 1: lambda_H of Eq. 5.3, > 0
+
+  std::size_t seeds = 100; ///< step 2 (*): cluster seeds of each model, m
+
+  /** \brief Step 3 (*): regroupings after which a seed that still shows crosstalk is given up. */
+  unsigned max_regroupings = 200;
+
+  double lambda_o = 0.3; ///< step 4: lambda_o of Eq. 5.17, in [0, 1)
+
+  unsigned check_regroupings = 4; ///< step 5 (*): regroupings of a cluster, >= 1
+
+  std::size_t min_cluster = 30; ///< step 6 (*): fewest surflets of a cluster
+  /** \brief Step 6 (*): smallest size relative to the model's largest cluster, in [0, 1]. Of 0.3,
+   * 0.5 and 0.8, 0.3 finds most objects and names clusters as well as the others. */
+  double lambda_c = 0.3;
+
+  std::uint64_t seed = 1;
+  unsigned threads = 0; ///< 0: all; the result does not depend on it
+};
+
+/** \brief What the steps did for one model. Each count is what was left or lost at that point. */
+struct ModelDiagnostics {
+  std::string label;
+  double threshold = 0;              ///< step 1: Hbar of Eq. 5.3
+  std::uint64_t pairs = 0;           ///< step 1: pairs selected for the model
+  std::size_t surflets = 0;          ///< step 1: surflets of those pairs, each counted once
+  std::size_t seeds = 0;             ///< step 2
+  std::size_t seed_surflets = 0;     ///< step 2: in all seeds together
+  std::size_t seeds_cleared = 0;     ///< step 3: seeds that lost all surflets, or never settled
+  std::size_t refined_surflets = 0;  ///< step 3: left in all seeds together
+  std::size_t seeds_lone = 0;        ///< step 4: seeds that share too little with any other
+  std::size_t clusters = 0;          ///< step 4
+  std::size_t died_distribution = 0; ///< step 5: another model explains the cluster better
+  std::size_t died_small = 0;        ///< step 6: below the minimum
+  std::size_t died_relative = 0;     ///< step 6: too small beside the model's largest
+  std::size_t merged = 0;            ///< step 7: joined with another cluster of the model
+  std::size_t lost = 0;              ///< step 7: lost a competition
+  std::size_t detections = 0;
+};
+
+struct InterpretationDiagnostics {
+  std::uint64_t drawn = 0;    ///< step 1: pairs drawn
+  std::uint64_t too_long = 0; ///< step 1: of these, longer than any model
+  std::uint64_t featureless = 0;
+  std::uint64_t background = 0;         ///< step 1: pairs that are most likely background
+  std::vector<ModelDiagnostics> models; ///< in the order of the database
+};
+
+/** \brief An object found in a scene. */
+struct Detection {
+  std::size_t model = 0; ///< index in the database
+  std::string label;
+  std::vector<std::uint32_t> cells; ///< indices of its surflets in the scene, ascending
+  std::array<double, 3> centroid{}; ///< of these surflets
+  /** \brief Nats per feature by which the model's mean log-likelihood exceeds that of the best
+   * other model, on the regrouped surflets; at least 0 if nothing was merged in step 7. */
+  double score = 0;
+  std::size_t seeds = 0; ///< merged cluster seeds, n_C
+};
+
+struct SceneInterpretation {
+  std::vector<Detection> detections; ///< in the order of the models
+  InterpretationDiagnostics diagnostics;
+};
+
+/** \brief Interprets a scene by the seven steps of the dissertation as they are written
+ * [Wahl 2007, Sec. 5.4].
+ *
+ * \param cells the scene, reduced to mean surflets (reduceToCells())
+ * \param database models and, for BackgroundTreatment::Model, background models. A model of several
+ * members takes part with their mean histogram.
+ *
+ * **Readings.** A pair longer than a model's delta_max has the histogram value 0 there (it cannot
+ * lie on the object) and is crosstalk in step 3. Regrouping joins every surflet of a set with
+ * exactly one other (Eq. 5.14). In step 4 the common surflets count relative to the lower seed; a
+ * seed without partner does not make a cluster (Eq. 5.17). In step 7 clusters of one model are
+ * merged first, then rivals meet, nearest centroids first; where neither wins two conditions the
+ * higher score stays.
+ *
+ * Empty scenes and scenes much larger than the models give no detections; the diagnostics tell why.
+ * The steps have no absolute measure of similarity: unknown objects, and scenes much smaller than
+ * the models, are given the name that fits least badly. \throws DatabaseError if the database has
+ * no object, or no background model to be modelled \throws std::invalid_argument if a parameter is
+ * out of range */
+PCL_SURFLET_API SceneInterpretation
+interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
+                        const DissertationParameters& parameters = {});
+
+/** \brief Indices of the cells that are farther than \p distance from every surflet of
+ * \p background, a scene sensed without objects: strategy A, exclusion [Wahl 2007, Sec. 5.4].
+ *
+ * \throws std::invalid_argument if \p distance is not positive and finite */
+PCL_SURFLET_API std::vector<std::uint32_t>
+cellsAwayFrom(const SurfletSet& cells, const SurfletSet& background, double distance);
+
+} // namespace pcl_surflet
