@@ -78,6 +78,19 @@ subsetOf(const CellScene& scene, const std::vector<std::uint32_t>& indices)
   return out;
 }
 
+std::string
+truthOf(const CellScene& scene, const Detection& d)
+{
+  std::size_t most = 0;
+  std::uint32_t best = 0;
+  for (const auto& [instance, cells] : instancesOf(scene, d))
+    if (cells > most) {
+      most = cells;
+      best = instance;
+    }
+  return best == 0 ? "background" : scene.items[best - 1].label;
+}
+
 Counts&
 Counts::operator+=(const Counts& o)
 {

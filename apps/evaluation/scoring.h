@@ -23,6 +23,9 @@ CellScene withTruth(const CellReduction& reduction, const Scene& scene);
 /** \brief The cells named by \p indices. */
 CellScene subsetOf(const CellScene& scene, const std::vector<std::uint32_t>& indices);
 
+/** \brief Label of what most cells of \p d come from: an item, or "background". */
+std::string truthOf(const CellScene& scene, const Detection& d);
+
 /** \brief Counts over all scenes, for one object or for all. */
 struct Counts {
   std::size_t present = 0;     ///< instances in the scenes

@@ -5,7 +5,8 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train", "classify", "feature", "info", "generate", "generate_shape"};
+const char* const kApps[] = {"train",    "classify",       "feature", "info",
+                             "generate", "generate_shape", "evaluate"};
 
 struct WrongLine {
   const char* app;
@@ -49,6 +50,11 @@ TEST(Usage, HelpNamesEveryOption)
         "-threads", "-k", "-csv"}},
       {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
       {"info", {"-csv"}},
+      {"evaluate",
+       {"-method",   "-treatment", "-scenes",   "-bins",       "-leaf",         "-pairs",
+        "-lambda_h", "-lambda_o",  "-lambda_c", "-min_fit",    "-max_surprise", "-on_cells",
+        "-present",  "-clutter",   "-unknown",  "-background", "-density",      "-noise",
+        "-csv",      "-verbose",   "-seed",     "-threads"}},
       {"generate",
        {"-out", "-poses", "-empty", "-present", "-clutter", "-unknown", "-background", "-size",
         "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
@@ -73,6 +79,7 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
                {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
                {"info", {}, "DB.pcd"},
                {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
+               {"evaluate", {"-csv"}, "ITEM"},
                {"generate", {"cup"}, "-out"},
                {"generate", {"-out", "s.pcd"}, "ITEM"},
                {"generate_shape", {"sphere"}, "OUT"},
@@ -125,6 +132,9 @@ TEST(Usage, ValuesOutOfRangeAreNamed)
 TEST(Usage, WrongNamesAreNamed)
 {
   expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
+               {"evaluate", {"-method", "guess", "cup"}, "explanation"},
+               {"evaluate", {"-treatment", "pray", "cup"}, "exclude"},
+               {"evaluate", {"-present", "2", "cup"}, "-present"},
                {"generate", {"-out", "s.pcd", "-background", "sea", "cup"}, "bowl"},
                {"generate", {"-out", "s.pcd", "-posture", "proud", "cup"}, "leaning"},
                {"generate", {"-out", "s.pcd", "cup:2"}, "'cup'"},

@@ -86,7 +86,8 @@ struct Detection {
   /** \brief Nats per feature by which the model's mean log-likelihood exceeds that of the best
    * other model, on the regrouped surflets; at least 0 if nothing was merged in step 7. */
   double score = 0;
-  std::size_t seeds = 0; ///< merged cluster seeds, n_C
+  std::size_t seeds = 0; ///< merged cluster seeds, n_C; 0 by explanation
+  double fit = 0; ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
 };
 
 struct SceneInterpretation {
@@ -116,6 +117,48 @@ struct SceneInterpretation {
 PCL_SURFLET_API SceneInterpretation
 interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
                         const DissertationParameters& parameters = {});
+
+/** \brief Constants of interpretByExplanation(). All are chosen by experiment on scenes with seeds
+ * below 100. */
+struct ExplanationParameters {
+  DissertationParameters steps; ///< steps 1 to 4, which propose places; background; seed; threads
+  double reach = 1.1;           ///< a place extends to this many r_max from its centre, >= 1
+  unsigned rounds = 2; ///< times that places are proposed, each on what is still unexplained, >= 1
+  std::size_t settling_cells = 1500; ///< cells of a place by which a model finds its centre, >= 2
+  unsigned recentrings = 3;          ///< times the centre moves to the mean of what was kept, >= 1
+  unsigned max_regroupings = 60;     ///< of one refinement
+  unsigned probes = 24; ///< pairs of a cell with what was kept, by which it may come back, >= 1
+  double max_crosstalk = 0.1; ///< share of crosstalk among these that is tolerated, in [0, 1]
+  /** \brief Nats per feature by which the mean log-likelihood of an explanation's cells may fall
+   * short of what the model expects of its own features. Until then the worst cells are peeled off.
+   */
+  double max_surprise = 0.1;
+  double peeled_share = 0.1;      ///< share of the cells that is peeled off at a time, in (0, 1)
+  unsigned peelings = 20;         ///< most times
+  std::uint64_t features = 40000; ///< regrouped features by which an explanation is judged, >= 1
+  double min_ratio = 0.1;   ///< least mean log density ratio to the other models, nats per feature
+  double min_fit = 0.72;    ///< least intersection with the model's histogram, in [0, 1]
+  unsigned vote_pairs = 24; ///< BackgroundTreatment::Model: pairs by which a cell is judged, >= 1
+  double vote_share = 0.3;  ///< a cell is background from this share of its pairs on, in (0, 1]
+  double vote_radius = 0.3; ///< partners lie within this share of the background's delta_max, > 0
+};
+
+/** \brief Interprets a scene by what explains it best.
+ *
+ * Steps 1 to 4 of the dissertation propose places. At every place each model is tried on *all*
+ * cells there: refined as in step 3 until what is left supports the model, the place moved to the
+ * middle of that. An explanation is worth its number of cells times the mean logarithm of the
+ * model's density over the mean density of the other models (bin masses divided by the width of the
+ * delta intervals, so that models of different size can be compared). The best explanation is
+ * taken, its cells are explained, and the others have to do with what is left. An explanation is
+ * refused whose histogram does not intersect the model's by min_fit, so parts of unknown objects
+ * stay unnamed. For BackgroundTreatment::Model cells are first judged one by one: background are
+ * those whose pairs with their neighbours it explains better than every object.
+ *
+ * Exceptions and \p cells as in interpretByDissertation(). */
+PCL_SURFLET_API SceneInterpretation
+interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
+                       const ExplanationParameters& parameters = {});
 
 /** \brief Indices of the cells that are farther than \p distance from every surflet of
  * \p background, a scene sensed without objects: strategy A, exclusion [Wahl 2007, Sec. 5.4].

@@ -35,14 +35,14 @@ ascending(const std::vector<PointIndex>& found)
   return out;
 }
 
-/** \brief Does the pair fall into a truly empty bin, or beyond the model? */
+} // namespace
+
 bool
 isCrosstalk(const SceneModel& model, std::uint32_t angular_bin, float delta_squared)
 {
   return angular_bin != kNoPairFeature && model.value(angular_bin, delta_squared) == 0;
 }
 
-/** \brief Erases both surflets of every pair that is crosstalk. \return whether there was any */
 bool
 eraseCrosstalk(const Regrouping& groups, const SceneModel& model, Indices& surflets)
 {
@@ -59,8 +59,6 @@ eraseCrosstalk(const Regrouping& groups, const SceneModel& model, Indices& surfl
   surflets = std::move(kept);
   return !bad.empty();
 }
-
-} // namespace
 
 void
 Regrouping::draw(const SceneData& scene, const Indices& surflets, std::uint64_t seed,

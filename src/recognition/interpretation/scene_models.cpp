@@ -26,11 +26,17 @@ sceneModel(const ModelDatabase& database, std::size_t index, double h_min, doubl
   const Histogram raw = meanHistogram(*m.model);
   const Histogram penalised = penalize(raw, h_min);
   m.h.assign(raw.begin(), raw.end());
-  for (const double v : penalised)
+  for (const double v : penalised) {
     m.log_h.push_back(static_cast<float>(std::log(v)));
+    m.expected_log += v * std::log(v);
+  }
   const double delta_max = m.model->delta_max;
   for (int k = 0; k + 1 < m.model->resolution.delta; ++k)
     m.border.push_back(deltaBorder(k, m.model->resolution, delta_max, scale));
+  const double width = delta_max * scale / m.model->resolution.delta;
+  for (const double v : penalised)
+    m.density.push_back(static_cast<float>(v / width));
+  m.least_density = static_cast<float>(h_min / width);
   m.longest = static_cast<float>(delta_max * scale * delta_max * scale);
   m.angular_bins = static_cast<std::uint32_t>(m.model->resolution.angularBins());
   return m;

@@ -18,8 +18,13 @@ constexpr std::uint32_t kBeyond = std::numeric_limits<std::uint32_t>::max();
 struct SceneModel {
   std::size_t index = 0; ///< in the database
   const HistogramModel* model = nullptr;
-  std::vector<float> h;      ///< H(b) without penalty
-  std::vector<float> log_h;  ///< ln of the penalised H(b) [Wahl 2007, Eq. 3.21, 3.22]
+  std::vector<float> h;     ///< H(b) without penalty
+  std::vector<float> log_h; ///< ln of the penalised H(b) [Wahl 2007, Eq. 3.21, 3.22]
+  /** \brief Penalised H(b) per width of the delta intervals in the scene's unit scale: what is
+   * comparable among models of different size. */
+  std::vector<float> density;
+  float least_density = 0;   ///< of what the model cannot have
+  double expected_log = 0;   ///< mean log-likelihood of the model's own features
   std::vector<float> border; ///< squared borders of delta in the scene's unit scale
   float longest = 0;         ///< delta_max squared in the scene's unit scale
   std::uint32_t angular_bins = 0;
@@ -38,6 +43,13 @@ struct SceneModel {
     for (const float b : border)
       angular_bin += delta_squared >= b ? angular_bins : 0;
     return angular_bin;
+  }
+  /** \brief Density of a feature; least_density beyond delta_max. */
+  float
+  densityOf(std::uint32_t angular_bin, float delta_squared) const
+  {
+    const std::uint32_t b = bin(angular_bin, delta_squared);
+    return b == kBeyond ? least_density : density[b];
   }
   /** \brief H_i(h_i(f)); 0 beyond delta_max. */
   float

@@ -14,6 +14,9 @@
 namespace pcl_surflet {
 namespace interpretation {
 
+/** \brief Models keep this distance between the streams of their random numbers. */
+constexpr std::uint64_t kModelStride = std::uint64_t{1} << 24;
+
 using Indices = std::vector<std::uint32_t>; ///< ascending, each once
 
 /** \brief A scene ready for the steps. */
@@ -77,6 +80,21 @@ void dropSmallClusters(const DissertationParameters& parameters, ClustersOfModel
  * [Wahl 2007, Eq. 5.18-5.21]. \p clusters has one entry a model. */
 void compete(const SceneData& scene, std::vector<ClustersOfModel>& clusters,
              InterpretationDiagnostics& diagnostics);
+
+/** \name What both methods share
+ * \throws std::invalid_argument or DatabaseError naming what is wrong */
+///@{
+void checkParameters(const DissertationParameters& parameters);
+void checkModels(const SceneModels& models, const DissertationParameters& parameters);
+InterpretationDiagnostics emptyDiagnostics(const ModelDatabase& database);
+/** \brief Steps 2 to 4 for one model. */
+ClustersOfModel proposeClusters(const SceneData& scene, std::size_t model, const Indices& selected,
+                                const DissertationParameters& parameters, ModelDiagnostics& d);
+/** \brief Does the pair fall into a truly empty bin, or beyond the model? */
+bool isCrosstalk(const SceneModel& model, std::uint32_t angular_bin, float delta_squared);
+/** \brief Erases both surflets of every pair that is crosstalk. \return whether there was any */
+bool eraseCrosstalk(const Regrouping& groups, const SceneModel& model, Indices& surflets);
+///@}
 
 /** \brief Mean position of the surflets. */
 std::array<double, 3> centroidOf(const SurfletSet& cells, const Indices& surflets);
