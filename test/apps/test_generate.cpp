@@ -102,5 +102,5 @@ TEST_F(Generate, EvaluateCountsWhatIsFound)
       EXPECT_EQ(table[1][2] + table[2][2], "11") << "found";
     }
   }
-  EXPECT_TRUE(ended(run("evaluate", {"-size", "0.1", "bottle"}), 2, {"do not fit"}));
+  EXPECT_TRUE(ended(run("evaluate", {"-size", "0.05", "bottle"}), 2, {"do not fit"}));
 }

@@ -5,8 +5,8 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train",    "classify",       "feature", "info",
-                             "generate", "generate_shape", "evaluate"};
+const char* const kApps[] = {"train",    "classify",       "feature",  "info",
+                             "generate", "generate_shape", "evaluate", "interpret"};
 
 struct WrongLine {
   const char* app;
@@ -55,6 +55,9 @@ TEST(Usage, HelpNamesEveryOption)
         "-lambda_h", "-lambda_o",  "-lambda_c", "-min_fit",    "-max_surprise", "-on_cells",
         "-present",  "-clutter",   "-unknown",  "-background", "-density",      "-noise",
         "-csv",      "-verbose",   "-seed",     "-threads"}},
+      {"interpret",
+       {"-database", "-method", "-background", "-empty", "-leaf", "-max", "-out", "-csv",
+        "-verbose", "-k", "-seed", "-threads"}},
       {"generate",
        {"-out", "-poses", "-empty", "-present", "-clutter", "-unknown", "-background", "-size",
         "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
@@ -80,6 +83,10 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
                {"info", {}, "DB.pcd"},
                {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
                {"evaluate", {"-csv"}, "ITEM"},
+               {"interpret", {"s.pcd"}, "-database"},
+               {"interpret", {"-database", "d.pcd"}, "SCENE"},
+               {"interpret", {"-database", "d.pcd", "-out", "o.pcd", "a.pcd", "b.pcd"}, "b.pcd"},
+               {"interpret", {"-database", "d.pcd", "-background", "exclude", "s.pcd"}, "-empty"},
                {"generate", {"cup"}, "-out"},
                {"generate", {"-out", "s.pcd"}, "ITEM"},
                {"generate_shape", {"sphere"}, "OUT"},
