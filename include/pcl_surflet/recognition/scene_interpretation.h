@@ -136,8 +136,8 @@ struct ExplanationParameters {
   double peeled_share = 0.1;      ///< share of the cells that is peeled off at a time, in (0, 1)
   unsigned peelings = 20;         ///< most times
   std::uint64_t features = 40000; ///< regrouped features by which an explanation is judged, >= 1
-  double min_ratio = 0.1;   ///< least mean log density ratio to the other models, nats per feature
-  double min_fit = 0.72;    ///< least intersection with the model's histogram, in [0, 1]
+  double min_ratio = 0.1;         ///< least mean log density ratio to all models, nats per feature
+  double min_fit = 0.72;          ///< least intersection with the model's histogram, in [0, 1]
   unsigned vote_pairs = 24; ///< BackgroundTreatment::Model: pairs by which a cell is judged, >= 1
   double vote_share = 0.3;  ///< a cell is background from this share of its pairs on, in (0, 1]
   double vote_radius = 0.3; ///< partners lie within this share of the background's delta_max, > 0
@@ -148,12 +148,20 @@ struct ExplanationParameters {
  * Steps 1 to 4 of the dissertation propose places. At every place each model is tried on *all*
  * cells there: refined as in step 3 until what is left supports the model, the place moved to the
  * middle of that. An explanation is worth its number of cells times the mean logarithm of the
- * model's density over the mean density of the other models (bin masses divided by the width of the
+ * model's density over the mean density of all models (bin masses divided by the width of the
  * delta intervals, so that models of different size can be compared). The best explanation is
  * taken, its cells are explained, and the others have to do with what is left. An explanation is
  * refused whose histogram does not intersect the model's by min_fit, so parts of unknown objects
  * stay unnamed. For BackgroundTreatment::Model cells are first judged one by one: background are
  * those whose pairs with their neighbours it explains better than every object.
+ *
+ * What does not belong to the object is told from it by the likelihood of its pairs: the worst
+ * cells are peeled off until the rest is nearly as likely as the model's own features. The database
+ * should have seven intervals in every dimension; with five too few bins are empty. The diagnostics
+ * are those of the first round.
+ *
+ * Limits, measured in doc/interpretation/results.md: of objects pushed together until they touch
+ * little more than half are found, and the largest model takes cells of its neighbours.
  *
  * Exceptions and \p cells as in interpretByDissertation(). */
 PCL_SURFLET_API SceneInterpretation
