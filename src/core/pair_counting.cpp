@@ -257,6 +257,33 @@ FeatureSample::bins(double delta_max, std::vector<std::uint32_t>& out) const
   }
 }
 
+void
+featuresOfPairs(const PairSource& source, const Resolution& resolution,
+                const std::vector<std::uint32_t>& first, const std::vector<std::uint32_t>& second,
+                PairFeatures& out)
+{
+  checkMapping(resolution, 1.0);
+  if (first.size() != second.size())
+    throw std::invalid_argument("pcl_surflet: pairs need as many first as second surflets");
+  const BinMap map(resolution, 1.0);
+  const std::size_t n = first.size();
+  out.angular_bin.resize(n);
+  out.delta_squared.resize(n);
+  for (std::size_t i = 0; i < n; i += kDrawBlock) {
+    const auto block = static_cast<std::uint32_t>(std::min<std::size_t>(n - i, kDrawBlock));
+    kernels::active().featuresGiven({source.records(), first.data() + i, second.data() + i, block},
+                                    map, out.angular_bin.data() + i, out.delta_squared.data() + i);
+  }
+  for (auto& bin : out.angular_bin)
+    bin = bin == kernels::kNoFeature ? kNoPairFeature : bin / kCounterCopies;
+}
+
+float
+deltaBorder(int k, const Resolution& resolution, double delta_max, double scale)
+{
+  return kernels::squaredDeltaBorder(k, resolution.delta, delta_max * scale);
+}
+
 std::vector<std::pair<std::uint32_t, std::uint32_t>>
 drawPairs(std::size_t m, std::uint64_t n, std::uint64_t seed, std::uint64_t first)
 {

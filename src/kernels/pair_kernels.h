@@ -75,6 +75,15 @@ struct DrawnBlock {
 
 constexpr std::uint32_t kDrawBlock = 4096;
 
+/** \brief A block of pairs chosen by the caller: (first[i], second[i]) of the records of a
+ * DrawnBlock. */
+struct GivenPairs {
+  const float* records;
+  const std::uint32_t* first;
+  const std::uint32_t* second;
+  std::uint32_t n; ///< at most kDrawBlock
+};
+
 struct PairKernels {
   const char* name;
   /** Counts the pairs (a[i], b[i]), i < n, into kCounterCopies counters for each of bins + 1. */
@@ -85,6 +94,9 @@ struct PairKernels {
   /** Writes counter index (kNoFeature for none) of delta interval 0, and squared distance, of each
    * drawn pair. */
   void (*featuresDrawn)(const DrawnBlock& block, const BinMap& map, std::uint32_t* index,
+                        float* delta_squared);
+  /** The same of given pairs. */
+  void (*featuresGiven)(const GivenPairs& pairs, const BinMap& map, std::uint32_t* index,
                         float* delta_squared);
   /** Writes the indices of each drawn pair, for those who need the surflets themselves. */
   void (*drawIndices)(const DrawnBlock& block, std::uint32_t* first, std::uint32_t* second);

@@ -255,7 +255,8 @@ drawIndices(const DrawnBlock& block, std::uint32_t* __restrict first,
   }
 }
 
-/** \brief Places of a block's records, in floats, padded so that prefetching may read past the end.
+/** \brief Places of the records of a block of pairs, in floats, padded so that prefetching may read
+ * past the end.
  */
 struct BlockIndices {
   static constexpr std::uint32_t kPadding = 64;
@@ -266,23 +267,31 @@ struct BlockIndices {
   explicit BlockIndices(const DrawnBlock& block)
   {
     drawIndices(block, first, second);
-    for (std::uint32_t k = block.n; k < block.n + kPadding; ++k)
-      first[k] = second[k] = 0;
-    for (std::uint32_t k = 0; k < block.n; ++k) {
-      first[k] *= 8;
-      second[k] *= 8;
+    toPlaces(first, second, block.n);
+  }
+  explicit BlockIndices(const GivenPairs& pairs) { toPlaces(pairs.first, pairs.second, pairs.n); }
+
+private:
+  void
+  toPlaces(const std::uint32_t* a, const std::uint32_t* b, std::uint32_t n)
+  {
+    for (std::uint32_t k = 0; k < n; ++k) {
+      first[k] = 8 * a[k];
+      second[k] = 8 * b[k];
     }
+    for (std::uint32_t k = n; k < n + kPadding; ++k)
+      first[k] = second[k] = 0;
   }
 };
 
-/** \brief Calls process(lanes of first, lanes of second, offset) for the drawn pairs from \p begin
+/** \brief Calls process(lanes of first, lanes of second, offset) for a block's pairs from \p begin
  * on, as long as they fill the lanes. \return where it stopped
  *
  * Records lie scattered over memory, so they are fetched ahead. */
-template <class V, class Process>
+template <class V, class Block, class Process>
 inline std::uint32_t
-forDrawnLanes(const DrawnBlock& block, const BlockIndices& indices, std::uint32_t begin,
-              const Process& process)
+forPairLanes(const Block& block, const BlockIndices& indices, std::uint32_t begin,
+             const Process& process)
 {
   constexpr std::uint32_t kAhead = 32;
   std::uint32_t i = begin;
@@ -308,12 +317,11 @@ countDrawn(const DrawnBlock& block, const BinMap& shared_map, std::uint32_t* cou
   DelayedCounter counter(counts);
   withBorders(map, [&](auto borders) {
     using B = decltype(borders);
-    const auto done =
-        forDrawnLanes<V>(block, indices, 0, [&](const auto& s1, const auto& s2, auto) {
-          counter.add<V>(counterIndex<V, B>(s1, s2, map));
-        });
+    const auto done = forPairLanes<V>(block, indices, 0, [&](const auto& s1, const auto& s2, auto) {
+      counter.add<V>(counterIndex<V, B>(s1, s2, map));
+    });
     counter.flush();
-    forDrawnLanes<ScalarLanes>(block, indices, done, [&](const auto& s1, const auto& s2, auto) {
+    forPairLanes<ScalarLanes>(block, indices, done, [&](const auto& s1, const auto& s2, auto) {
       counter.add<ScalarLanes>(counterIndex<ScalarLanes, Borders<0, 0>>(s1, s2, map));
     });
     counter.flush();
@@ -330,17 +338,16 @@ storeFeatures(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map, std::ui
   V::store(delta_squared, f.delta_squared);
 }
 
-template <class V>
+template <class V, class Block>
 void
-featuresDrawn(const DrawnBlock& block, const BinMap& map, std::uint32_t* index,
-              float* delta_squared)
+featuresOfBlock(const Block& block, const BinMap& map, std::uint32_t* index, float* delta_squared)
 {
   const BlockIndices indices(block);
-  const auto done = forDrawnLanes<V>(block, indices, 0,
-                                     [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
-                                       storeFeatures<V>(s1, s2, map, index + i, delta_squared + i);
-                                     });
-  forDrawnLanes<ScalarLanes>(
+  const auto done = forPairLanes<V>(block, indices, 0,
+                                    [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
+                                      storeFeatures<V>(s1, s2, map, index + i, delta_squared + i);
+                                    });
+  forPairLanes<ScalarLanes>(
       block, indices, done,
       [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2, std::uint32_t i) {
         storeFeatures<ScalarLanes>(s1, s2, map, index + i, delta_squared + i);
@@ -355,7 +362,11 @@ featuresDrawn(const DrawnBlock& block, const BinMap& map, std::uint32_t* index,
 #define PCL_SURFLET_DEFINE_KERNELS(variable, text, V)                                              \
   namespace pcl_surflet {                                                                          \
   namespace kernels {                                                                              \
-  const PairKernels variable = {text, countStream<V>, countDrawn<V>, featuresDrawn<V>,             \
+  const PairKernels variable = {text,                                                              \
+                                countStream<V>,                                                    \
+                                countDrawn<V>,                                                     \
+                                featuresOfBlock<V, DrawnBlock>,                                    \
+                                featuresOfBlock<V, GivenPairs>,                                    \
                                 drawIndices};                                                      \
   }                                                                                                \
   }

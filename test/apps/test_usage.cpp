@@ -5,8 +5,8 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train",          "classify",   "feature", "info",
-                             "generate_shape", "experiment", "reduce"};
+const char* const kApps[] = {"train",    "classify",       "feature",  "info",       "reduce",
+                             "generate", "generate_shape", "evaluate", "experiment", "interpret"};
 
 struct WrongLine {
   const char* app;
@@ -51,6 +51,17 @@ TEST(Usage, HelpNamesEveryOption)
       {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
       {"info", {"-csv"}},
       {"reduce", {"-leaf", "-min_normal", "-csv"}},
+      {"evaluate",
+       {"-method",   "-treatment", "-scenes",   "-bins",       "-leaf",         "-pairs",
+        "-lambda_h", "-lambda_o",  "-lambda_c", "-min_fit",    "-max_surprise", "-on_cells",
+        "-present",  "-clutter",   "-unknown",  "-background", "-density",      "-noise",
+        "-csv",      "-verbose",   "-seed",     "-threads"}},
+      {"interpret",
+       {"-database", "-method", "-background", "-empty", "-leaf", "-max", "-out", "-csv",
+        "-verbose", "-k", "-seed", "-threads"}},
+      {"generate",
+       {"-out", "-poses", "-empty", "-present", "-clutter", "-unknown", "-background", "-size",
+        "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
       {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
   for (const auto& [app, names] : options) {
     const std::string help = run(app, {"-h"}).out;
@@ -72,6 +83,13 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
                {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
                {"info", {}, "DB.pcd"},
                {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
+               {"evaluate", {"-csv"}, "ITEM"},
+               {"interpret", {"s.pcd"}, "-database"},
+               {"interpret", {"-database", "d.pcd"}, "SCENE"},
+               {"interpret", {"-database", "d.pcd", "-out", "o.pcd", "a.pcd", "b.pcd"}, "b.pcd"},
+               {"interpret", {"-database", "d.pcd", "-background", "exclude", "s.pcd"}, "-empty"},
+               {"generate", {"cup"}, "-out"},
+               {"generate", {"-out", "s.pcd"}, "ITEM"},
                {"generate_shape", {"sphere"}, "OUT"},
                {"generate_shape", {"sphere", "a.pcd", "b"}, "'b'"}});
 }
@@ -122,6 +140,16 @@ TEST(Usage, ValuesOutOfRangeAreNamed)
 TEST(Usage, WrongNamesAreNamed)
 {
   expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
+               {"evaluate", {"-method", "guess", "cup"}, "explanation"},
+               {"evaluate", {"-treatment", "pray", "cup"}, "exclude"},
+               {"evaluate", {"-present", "2", "cup"}, "-present"},
+               {"generate", {"-out", "s.pcd", "-background", "sea", "cup"}, "bowl"},
+               {"generate", {"-out", "s.pcd", "-posture", "proud", "cup"}, "leaning"},
+               {"generate", {"-out", "s.pcd", "cup:2"}, "'cup'"},
+               {"generate", {"-out", "s.pcd", "a.off:2:w"}, "a.off:2:w"},
+               {"generate", {"-out", "s.pcd", "a.off:two"}, "DIAMETER"},
+               {"generate", {"-out", "s.pcd", "-present", "2", "cup"}, "-present"},
+               {"generate", {"-out", "s.pcd", "-unknown", "1", "cup"}, "-unknown"},
                {"generate_shape", {"dodecahedron", "a.pcd"}, "wine_glass"},
                {"generate_shape", {"sphere", "a.stl"}, ".off"}});
 }

@@ -230,6 +230,43 @@ TEST(PairCounting, AbsurdScales)
   }
 }
 
+TEST(PairCounting, FeaturesOfGivenPairsAreThoseOfDrawnOnes)
+{
+  const auto set = mixedCloud(700, 11);
+  const PairSource source(set);
+  const std::uint64_t n = 10001; // more than two blocks, and a remainder
+  std::vector<std::uint32_t> first, second;
+  for (const auto& [a, b] : drawPairs(set.size(), n, 3)) {
+    first.push_back(a);
+    second.push_back(b);
+  }
+  for (const auto kernels : {InstructionSet::Scalar, InstructionSet::Baseline, InstructionSet::Avx2,
+                             InstructionSet::Avx512}) {
+    if (!selectInstructionSet(kernels))
+      continue;
+    const auto drawn = drawFeatures(source, {}, n, 3);
+    PairFeatures given;
+    featuresOfPairs(source, {}, first, second, given);
+    ASSERT_EQ(given.angular_bin.size(), n);
+    std::vector<std::uint32_t> bins, expected;
+    drawn.bins(1.5, expected);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (given.angular_bin[i] == kNoPairFeature)
+        continue;
+      bins.push_back(given.angular_bin[i]);
+      for (int k = 0; k < 4; ++k)
+        bins.back() += given.delta_squared[i] >= deltaBorder(k, {}, 1.5, source.scale()) ? 125 : 0;
+    }
+    EXPECT_EQ(n - bins.size(), drawn.rejected);
+    EXPECT_EQ(bins, expected);
+  }
+  selectInstructionSet(InstructionSet::Automatic);
+  PairFeatures self;
+  featuresOfPairs(source, {}, {5}, {5}, self);
+  EXPECT_EQ(self.angular_bin[0], kNoPairFeature);
+  EXPECT_THROW(featuresOfPairs(source, {}, {1, 2}, {1}, self), std::invalid_argument);
+}
+
 TEST(PairCounting, TinyAndDegenerateSets)
 {
   SurfletSet set;

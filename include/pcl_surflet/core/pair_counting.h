@@ -105,6 +105,29 @@ PCL_SURFLET_API FeatureSample drawFeatures(const PairSource& source, const Resol
                                            std::uint64_t n, std::uint64_t seed,
                                            unsigned threads = 1);
 
+/** \brief Mark of a pair without feature in PairFeatures::angular_bin. */
+constexpr std::uint32_t kNoPairFeature = 0xffffffffu;
+
+/** \brief Features of pairs, one entry a pair, as far as models of one angular resolution need
+ * them. */
+struct PairFeatures {
+  std::vector<std::uint32_t> angular_bin; ///< bin of (alpha, beta, gamma), or kNoPairFeature
+  std::vector<float> delta_squared;       ///< squared distance, times the source's scale^2
+};
+
+/** \brief Features of the pairs (first[i], second[i]) of \p source, in one thread; \p out is
+ * replaced. Indices must be below source.size(); a surflet paired with itself has no feature.
+ * \throws std::invalid_argument for an unusable resolution or lists of different length */
+PCL_SURFLET_API void featuresOfPairs(const PairSource& source, const Resolution& resolution,
+                                     const std::vector<std::uint32_t>& first,
+                                     const std::vector<std::uint32_t>& second, PairFeatures& out);
+
+/** \brief Border \p k (0 ... d_delta - 2) between the intervals of delta, in the measure of
+ * PairFeatures::delta_squared: a pair is beyond it where delta_squared >= border. The same
+ * comparison as in all counting functions. */
+PCL_SURFLET_API float deltaBorder(int k, const Resolution& resolution, double delta_max,
+                                  double scale);
+
 /** \brief Indices of the drawn pairs number \p first ... \p first + n - 1 among \p m surflets (m >=
  * 2), the same pairs that countDrawnPairs() and drawFeatures() draw with that seed. */
 PCL_SURFLET_API std::vector<std::pair<std::uint32_t, std::uint32_t>>

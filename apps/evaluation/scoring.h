@@ -1,0 +1,74 @@
+/** \file
+ * Compares what was found in a scene with the truth. */
+#pragma once
+
+#include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/scene_generator.h"
+#include "pcl_surflet/recognition/scene_interpretation.h"
+
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+namespace apps {
+
+/** \brief A reduced scene with the truth about its cells. */
+struct CellScene {
+  SurfletSet cells;
+  std::vector<std::uint32_t> instance; ///< that most surflets of the cell come from; 0 background
+  std::vector<PlacedItem> items;       ///< items[k] is instance k + 1
+};
+
+CellScene withTruth(const CellReduction& reduction, const Scene& scene);
+/** \brief The cells named by \p indices. */
+CellScene subsetOf(const CellScene& scene, const std::vector<std::uint32_t>& indices);
+
+/** \brief Label of what most cells of \p d come from: an item, or "background". */
+std::string truthOf(const CellScene& scene, const Detection& d);
+
+/** \brief Counts over all scenes, for one object or for all. */
+struct Counts {
+  std::size_t present = 0;     ///< instances in the scenes
+  std::size_t found = 0;       ///< instances that a cluster of their label lies on
+  std::size_t clusters = 0;    ///< detections of this label
+  std::size_t right = 0;       ///< with at least one cell of an object of that label, Eq. 5.9
+  std::size_t strict = 0;      ///< with most of their cells on one instance of that label
+  std::size_t doubles = 0;     ///< strict, but of an instance found before
+  std::size_t cells = 0;       ///< in clusters that are right
+  std::size_t right_cells = 0; ///< of these, from objects of that label, Eq. 5.10
+
+  Counts& operator+=(const Counts& other);
+};
+
+/** \brief Share and its 95 % confidence interval (Wilson), in percent. */
+struct Rate {
+  double percent = 0, low = 0, high = 0;
+};
+
+Rate rateOf(std::size_t hits, std::size_t trials);
+
+/** \brief Score of one method over many scenes. */
+class Score {
+public:
+  explicit Score(const ModelDatabase& database);
+
+  void add(const CellScene& scene, const std::vector<Detection>& detections);
+  std::string table() const;
+  std::string csv() const;
+  /** \brief Counts of each model in the order of the database. */
+  const std::vector<Counts>&
+  counts() const
+  {
+    return counts_;
+  }
+  /** \brief Detections that are not strictly right, and doubles, per scene. */
+  double falsePerScene() const;
+
+private:
+  std::vector<std::string> labels_;
+  std::vector<Counts> counts_;
+  std::size_t scenes_ = 0;
+};
+
+} // namespace apps
+} // namespace pcl_surflet

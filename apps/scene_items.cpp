@@ -1,0 +1,101 @@
+#include "scene_items.h"
+
+#include "pcl_surflet/core/conditions.h"
+#include "pcl_surflet/surface_file.h"
+
+namespace pcl_surflet {
+namespace apps {
+namespace {
+
+/** \brief The mesh turned so that \p axis becomes z. */
+TriangleMesh
+turnedUp(TriangleMesh mesh, const std::string& axis)
+{
+  for (auto& p : mesh.vertices)
+    if (axis == "y") // (x, y, z) -> (x, -z, y)
+      p = {p[0], -p[2], p[1]};
+    else if (axis == "x") // -> (-z, y, x)
+      p = {-p[2], p[1], p[0]};
+  return mesh;
+}
+
+SceneItem
+shapeItem(const Shape& shape, const std::vector<std::string>& spec)
+{
+  if (spec.size() > 1)
+    throw UsageError("'" + spec[0] +
+                     "' is a ready-made shape and has its size and posture; give "
+                     "its name alone, or a mesh file");
+  return sceneItem(spec[0], shape);
+}
+
+/** \brief SHAPE or FILE[:DIAMETER[:UP]]. */
+SceneItem
+itemOf(const std::string& text)
+{
+  const auto spec = parts(text, ':');
+  if (const auto shape = shapeByName(spec[0]))
+    return shapeItem(*shape, spec);
+  if (spec.size() > 3 || (spec.size() == 3 && spec[2] != "x" && spec[2] != "y" && spec[2] != "z"))
+    throw UsageError("'" + text + "' is not FILE:DIAMETER:UP, where UP is x, y or z");
+  const double diameter =
+      spec.size() > 1 ? parseReal("DIAMETER of " + spec[0], spec[1], 1e-6, 1e6) : 0;
+  const SurfaceFile file = loadSurface(spec[0]);
+  if (!file.mesh)
+    throw DataError(spec[0] + ": holds points; give a file with faces, or the name of a shape");
+  const TriangleMesh& mesh = *file.mesh;
+  const TriangleMesh upright = spec.size() == 3 ? turnedUp(mesh, spec[2]) : mesh;
+  return sceneItem(stemOf(spec[0]), diameter > 0 ? scaledToDiameter(upright, diameter) : upright);
+}
+
+} // namespace
+
+std::vector<std::string>
+parts(const std::string& text, char separator)
+{
+  std::vector<std::string> out(1);
+  for (const char c : text)
+    if (c == separator)
+      out.emplace_back();
+    else
+      out.back() += c;
+  return out;
+}
+
+std::vector<SceneItem>
+itemsOf(const std::vector<std::string>& texts)
+{
+  std::vector<SceneItem> items;
+  for (const auto& text : texts)
+    items.push_back(itemOf(text));
+  return items;
+}
+
+void
+addArrangement(CommandLine& line, SceneOptions& o)
+{
+  addChoice<Background>(line, "-background", "what carries the objects, default plane",
+                        o.background,
+                        {{"none", Background::None},
+                         {"plane", Background::Plane},
+                         {"corner", Background::Corner},
+                         {"box", Background::Box},
+                         {"bowl", Background::Bowl}});
+  line.real("-size", "S", "edge of the background, or opening of the bowl, default 1", o.size, 1e-6,
+            1e6);
+  line.real("-wall", "H", "height of walls, default 0.3", o.wall_height, 1e-6, 1e6);
+  addChoice<Posture>(line, "-posture", "how objects stand, default upright", o.posture,
+                     {{"upright", Posture::Upright},
+                      {"lying", Posture::Lying},
+                      {"leaning", Posture::Leaning},
+                      {"mixed", Posture::Mixed}});
+  addChoice<Spacing>(line, "-spacing", "apart (default) or pushed together", o.spacing,
+                     {{"apart", Spacing::Apart}, {"pile", Spacing::Pile}});
+  line.real("-factor", "F",
+            "apart: centroids at least F times the smaller bounding radius apart, default 1",
+            o.distance_factor, 0, 1e6);
+  line.real("-gap", "G", "pile: gap along the direction of pushing, default 0", o.gap, 0, 1e6);
+}
+
+} // namespace apps
+} // namespace pcl_surflet

@@ -1,0 +1,129 @@
+#include "steps.h"
+
+#include "pcl_surflet/core/counter_random.h"
+#include "pcl_surflet/core/linear_octree.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+namespace pcl_surflet {
+namespace interpretation {
+namespace {
+
+constexpr std::uint64_t kSeedStream = 0x73656564ULL;
+
+/** \brief \p n of \p all, each at most once, in random order. */
+std::vector<std::uint32_t>
+randomSample(const Indices& all, std::size_t n, CounterRandom random)
+{
+  std::vector<std::uint32_t> sample = all;
+  n = std::min(n, sample.size());
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto rest = static_cast<std::uint32_t>(sample.size() - i);
+    std::swap(sample[i], sample[i + random.below(rest)]);
+  }
+  sample.resize(n);
+  return sample;
+}
+
+Indices
+ascending(const std::vector<PointIndex>& found)
+{
+  Indices out(found.begin(), found.end());
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+} // namespace
+
+bool
+isCrosstalk(const SceneModel& model, std::uint32_t angular_bin, float delta_squared)
+{
+  return angular_bin != kNoPairFeature && model.value(angular_bin, delta_squared) == 0;
+}
+
+bool
+eraseCrosstalk(const Regrouping& groups, const SceneModel& model, Indices& surflets)
+{
+  Indices bad;
+  for (std::size_t i = 0; i < groups.first.size(); ++i)
+    if (isCrosstalk(model, groups.features.angular_bin[i], groups.features.delta_squared[i])) {
+      bad.push_back(groups.first[i]);
+      bad.push_back(groups.second[i]);
+    }
+  std::sort(bad.begin(), bad.end());
+  Indices kept;
+  std::set_difference(surflets.begin(), surflets.end(), bad.begin(), bad.end(),
+                      std::back_inserter(kept));
+  surflets = std::move(kept);
+  return !bad.empty();
+}
+
+void
+Regrouping::draw(const SceneData& scene, const Indices& surflets, std::uint64_t seed,
+                 std::uint64_t stream)
+{
+  CounterRandom random(seed, stream);
+  std::vector<std::uint32_t> order = surflets;
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  const auto half = static_cast<std::ptrdiff_t>(order.size() / 2);
+  first.assign(order.begin(), order.begin() + half);
+  second.assign(order.begin() + half, order.begin() + 2 * half);
+  featuresOfPairs(scene.source, scene.models.resolution, first, second, features);
+}
+
+double
+meanLogLikelihood(const Regrouping& groups, const SceneModel& model, float log_h_min)
+{
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < groups.first.size(); ++i) {
+    if (groups.features.angular_bin[i] == kNoPairFeature)
+      continue;
+    const auto bin = model.bin(groups.features.angular_bin[i], groups.features.delta_squared[i]);
+    sum += bin == kBeyond ? log_h_min : model.log_h[bin];
+    ++n;
+  }
+  return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);
+}
+
+ClustersOfModel
+plantSeeds(const SceneData& scene, std::size_t model, const Indices& selected,
+           const DissertationParameters& parameters)
+{
+  ClustersOfModel seeds;
+  const std::vector<PointIndex> subset(selected.begin(), selected.end());
+  LinearOctree octree;
+  const auto& s = scene.cells;
+  octree.build({s.x.data(), s.y.data(), s.z.data(), 1, s.size()}, &subset);
+  const CounterRandom random(parameters.seed, kSeedStream + model);
+  std::vector<PointIndex> found;
+  for (const auto c : randomSample(selected, parameters.seeds, random)) {
+    octree.regionSearch({s.x[c], s.y[c], s.z[c]}, scene.models.all[model].model->r_max, found,
+                        nullptr); // Eq. 5.13
+    seeds.emplace_back();
+    seeds.back().surflets = ascending(found);
+  }
+  return seeds;
+}
+
+void
+refineSeed(const SceneData& scene, std::size_t model, std::uint64_t stream,
+           const DissertationParameters& parameters, Cluster& seed)
+{
+  const SceneModel& m = scene.models.all[model];
+  Regrouping groups;
+  for (unsigned k = 0; k < parameters.max_regroupings && seed.surflets.size() > 1; ++k) {
+    groups.draw(scene, seed.surflets, parameters.seed, mix64(stream) + k); // Eq. 5.14
+    if (eraseCrosstalk(groups, m, seed.surflets))
+      continue;
+    seed.likelihood = meanLogLikelihood(groups, m, scene.models.log_h_min); // Eq. 5.16
+    return;
+  }
+  seed.surflets.clear();
+}
+
+} // namespace interpretation
+} // namespace pcl_surflet

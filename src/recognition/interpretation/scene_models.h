@@ -1,0 +1,76 @@
+/** \file
+ * The models as the steps of interpretation need them; internal, not installed. */
+#pragma once
+
+#include "pcl_surflet/core/pair_counting.h"
+#include "pcl_surflet/recognition/model_database.h"
+
+#include <limits>
+#include <vector>
+
+namespace pcl_surflet {
+namespace interpretation {
+
+/** \brief Mark of a feature that a model cannot have: a pair longer than its delta_max. */
+constexpr std::uint32_t kBeyond = std::numeric_limits<std::uint32_t>::max();
+
+/** \brief One model with tables over its bins. */
+struct SceneModel {
+  std::size_t index = 0; ///< in the database
+  const HistogramModel* model = nullptr;
+  std::vector<float> h;     ///< H(b) without penalty
+  std::vector<float> log_h; ///< ln of the penalised H(b) [Wahl 2007, Eq. 3.21, 3.22]
+  /** \brief Penalised H(b) per width of the delta intervals in the scene's unit scale: what is
+   * comparable among models of different size. */
+  std::vector<float> density;
+  float least_density = 0;   ///< of what the model cannot have
+  double expected_log = 0;   ///< mean log-likelihood of the model's own features
+  std::vector<float> border; ///< squared borders of delta in the scene's unit scale
+  float longest = 0;         ///< delta_max squared in the scene's unit scale
+  std::uint32_t angular_bins = 0;
+
+  bool
+  isObject() const
+  {
+    return model->role == ModelRole::Object;
+  }
+  /** \brief h_i(f): the bin of a feature [Wahl 2007, Eq. 3.4], or kBeyond. */
+  std::uint32_t
+  bin(std::uint32_t angular_bin, float delta_squared) const
+  {
+    if (delta_squared > longest)
+      return kBeyond;
+    for (const float b : border)
+      angular_bin += delta_squared >= b ? angular_bins : 0;
+    return angular_bin;
+  }
+  /** \brief Density of a feature; least_density beyond delta_max. */
+  float
+  densityOf(std::uint32_t angular_bin, float delta_squared) const
+  {
+    const std::uint32_t b = bin(angular_bin, delta_squared);
+    return b == kBeyond ? least_density : density[b];
+  }
+  /** \brief H_i(h_i(f)); 0 beyond delta_max. */
+  float
+  value(std::uint32_t angular_bin, float delta_squared) const
+  {
+    const std::uint32_t b = bin(angular_bin, delta_squared);
+    return b == kBeyond ? 0.f : h[b];
+  }
+};
+
+/** \brief The models that take part, objects first. */
+struct SceneModels {
+  std::vector<SceneModel> all;
+  std::size_t objects = 0; ///< the first of all are objects, the others background
+  Resolution resolution;
+  double largest_delta = 0; ///< delta_max of the largest object
+  float log_h_min = 0;      ///< ln of the penalty, the likelihood of what a model cannot have
+};
+
+/** \param scale of the scene's PairSource */
+SceneModels sceneModels(const ModelDatabase& database, bool with_background, double scale);
+
+} // namespace interpretation
+} // namespace pcl_surflet

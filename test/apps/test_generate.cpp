@@ -1,0 +1,106 @@
+// Scenes made by pcl_surflet_generate.
+#include "app_runner.h"
+
+using namespace pcl_surflet::test;
+
+namespace {
+
+class Generate : public Apps {};
+
+std::string
+headerLine(const std::string& pcd, const std::string& key)
+{
+  const auto at = pcd.find("\n" + key + " ");
+  return at == std::string::npos ? "" : pcd.substr(at + 1, pcd.find('\n', at + 1) - at - 1);
+}
+
+} // namespace
+
+TEST_F(Generate, WritesSceneTruthAndEmptyBackground)
+{
+  const AppRun r = run("generate", {"-out", path("s.pcd"), "-poses", path("p.csv"), "-empty",
+                                    path("e.pcd"), "-density", "10000", "-clutter", "cone,cube",
+                                    "-unknown", "1", "cup", "bottle"});
+  ASSERT_TRUE(ended(r, 0, {"s.pcd", "3 items"}));
+  const std::string scene = readFile(path("s.pcd"));
+  EXPECT_EQ(headerLine(scene, "FIELDS"), "FIELDS x y z normal_x normal_y normal_z label instance");
+  const auto poses = parseCsv(readFile(path("p.csv")));
+  ASSERT_EQ(poses.size(), 4u);
+  EXPECT_EQ(poses[0].size(), 24u);
+  EXPECT_EQ(poses[1][0] + poses[1][1] + poses[1][3], "cup11");
+  EXPECT_EQ(poses[2][0] + poses[2][1] + poses[2][3], "bottle21");
+  EXPECT_EQ(poses[3][3], "0") << "clutter is unknown";
+  std::size_t points = 10000; // the table
+  for (std::size_t row = 1; row < poses.size(); ++row)
+    points += std::stoul(poses[row].back());
+  EXPECT_EQ(headerLine(scene, "POINTS"), "POINTS " + std::to_string(points));
+  EXPECT_EQ(headerLine(readFile(path("e.pcd")), "POINTS"), "POINTS 10000");
+  EXPECT_EQ(headerLine(readFile(path("e.pcd")), "FIELDS"),
+            "FIELDS x y z normal_x normal_y normal_z");
+}
+
+TEST_F(Generate, ScenesCanBeReadAgain)
+{
+  ASSERT_EQ(run("generate", {"-out", path("s.pcd"), "-density", "10000", "cup"}).code, 0);
+  ASSERT_EQ(run("train", {"-database", path("db.pcd"), "-pairs", "1000", path("s.pcd")}).code, 0);
+}
+
+TEST_F(Generate, MeshesAreScaledAndTurnedUp)
+{
+  ASSERT_EQ(run("generate_shape", {"cone", path("cone.off")}).code, 0);
+  for (const std::string up : {"x", "y", "z"}) {
+    ASSERT_EQ(run("generate", {"-out", path("s.pcd"), "-poses", path("p.csv"), "-density", "20000",
+                               "-background", "none", "-size", "5", path("cone.off") + ":2:" + up})
+                  .code,
+              0);
+    const auto poses = parseCsv(readFile(path("p.csv")));
+    // An upright cone carries most of its surface low; on its side, in the middle.
+    const double height = std::stod(poses[1][22]);
+    EXPECT_GT(height, 0.1);
+    EXPECT_EQ(height < 0.62, up == "z") << up << " " << height;
+  }
+}
+
+TEST_F(Generate, SeedsDecide)
+{
+  const auto made = [&](const std::string& seed) {
+    EXPECT_EQ(run("generate", {"-out", path("s.pcd"), "-density", "5000", "-seed", seed, "-posture",
+                               "mixed", "-noise", "0.001", "cup", "torus"})
+                  .code,
+              0);
+    return readFile(path("s.pcd"));
+  };
+  const std::string first = made("4");
+  EXPECT_TRUE(first == made("4"));
+  EXPECT_FALSE(first == made("5"));
+}
+
+TEST_F(Generate, BadDataIsNamed)
+{
+  makeShapes();
+  const std::string out = path("s.pcd");
+  EXPECT_TRUE(ended(run("generate", {"-out", out, path("none.off")}), 2, {"none.off"}));
+  EXPECT_TRUE(ended(run("generate", {"-out", out, path("ball.pcd")}), 2, {"ball.pcd", "faces"}));
+  EXPECT_TRUE(ended(run("generate", {"-out", out, "-size", "0.1", "cup"}), 2, {"do not fit"}));
+  EXPECT_TRUE(ended(run("generate", {"-out", out, "-density", "1e12", "cup"}), 2, {"density"}));
+  EXPECT_TRUE(ended(run("generate", {"-out", path("no/s.pcd"), "-density", "100", "cup"}), 2,
+                    {"no/s.pcd"}));
+}
+
+TEST_F(Generate, EvaluateCountsWhatIsFound)
+{
+  for (const std::string method : {"dissertation", "explanation"}) {
+    const AppRun r = run("evaluate", {"-method", method, "-treatment", "exclude", "-scenes", "1",
+                                      "-density", "100000", "-leaf", "0.008", "-bins", "7",
+                                      "-pairs", "50000", "-csv", "bottle", "torus"});
+    ASSERT_TRUE(ended(r, 0, {"cells"})) << method;
+    const auto table = parseCsv(r.out);
+    ASSERT_EQ(table.size(), 3u);
+    EXPECT_EQ(table[0][0] + table[1][0] + table[2][0], "objectbottletorus");
+    EXPECT_EQ(table[1][1], "1") << "present";
+    if (method == "explanation") {
+      EXPECT_EQ(table[1][2] + table[2][2], "11") << "found";
+    }
+  }
+  EXPECT_TRUE(ended(run("evaluate", {"-size", "0.05", "bottle"}), 2, {"do not fit"}));
+}
