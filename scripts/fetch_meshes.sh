@@ -6,6 +6,7 @@ set -euo pipefail
 directory=${1:?usage: fetch_meshes.sh DIRECTORY}
 meshes=$directory/data/meshes
 if [ ! -f "$meshes/armadillo.off" ]; then
+  rm -rf "$directory/package"
   mkdir -p "$directory/package"
   (
     cd "$directory/package"
@@ -15,7 +16,11 @@ if [ ! -f "$meshes/armadillo.off" ]; then
         apt-get download -qq libcgal-demo; }
     dpkg-deb -x libcgal-demo_*.deb .
   ) >&2
-  tar -xzf "$directory/package/usr/share/doc/libcgal-dev/data.tar.gz" -C "$directory"
+  # Unpacked aside and moved: an interrupted run leaves nothing that looks complete.
+  mkdir -p "$directory/package/unpacked"
+  tar -xzf "$directory/package/usr/share/doc/libcgal-dev/data.tar.gz" -C "$directory/package/unpacked"
+  rm -rf "$directory/data"
+  mv "$directory/package/unpacked/data" "$directory/data"
   rm -rf "$directory/package"
 fi
 [ -f "$meshes/armadillo.off" ] || { echo "libcgal-demo does not hold the expected meshes" >&2; exit 1; }
