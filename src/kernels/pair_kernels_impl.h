@@ -1,8 +1,8 @@
 /** \file
  * The one source of the pair kernels, instantiated by every pair_kernels_*.cpp for its lanes V.
  *
- * V offers: F (floats), M (mask), kWidth, load, store, set, sqrt, abs, less, lessEqual, select,
- * both, either, countIf, toIndex, loadRecords. */
+ * V offers: F (floats), M (mask), kWidth, load, store, set, minusAbs, less, lessEqual, select,
+ * addIf, storeIndex, loadRecords. */
 #pragma once
 
 #include "kernels/lanes_scalar.h"

@@ -15,7 +15,8 @@ namespace pcl_surflet {
 /** \brief A surflet set made ready for the pair kernels; immutable, may be shared by threads.
  *
  * Centred and scaled by a power of two (toUnitScale), once as columns for streaming and once as
- * records for random access. Pairs closer than 1e-12 of its extent count as coincident.
+ * records for random access. Pairs so close that their squared distance vanishes
+ * in single precision (about 1e-22 of its extent) count as coincident.
  * Fewer than 2^29 surflets (std::length_error). */
 class PCL_SURFLET_API PairSource {
 public:
