@@ -121,26 +121,30 @@ interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
 /** \brief Constants of interpretByExplanation(). All are chosen by experiment on scenes with seeds
  * below 100. */
 struct ExplanationParameters {
-  DissertationParameters steps; ///< steps 1 to 4, which propose places; background; seed; threads
-  double reach = 1.1;           ///< a place extends to this many r_max from its centre, >= 1
-  unsigned rounds = 2; ///< times that places are proposed, each on what is still unexplained, >= 1
-  std::size_t settling_cells = 1500; ///< cells of a place by which a model finds its centre, >= 2
-  unsigned recentrings = 3;          ///< times the centre moves to the mean of what was kept, >= 1
-  unsigned max_regroupings = 60;     ///< of one refinement
-  unsigned probes = 24; ///< pairs of a cell with what was kept, by which it may come back, >= 1
-  double max_crosstalk = 0.1; ///< share of crosstalk among these that is tolerated, in [0, 1]
-  /** \brief Nats per feature by which the mean log-likelihood of an explanation's cells may fall
-   * short of what the model expects of its own features. Until then the worst cells are peeled off.
-   */
-  double max_surprise = 0.1;
-  double peeled_share = 0.1;      ///< share of the cells that is peeled off at a time, in (0, 1)
-  unsigned peelings = 20;         ///< most times
-  std::uint64_t features = 40000; ///< regrouped features by which an explanation is judged, >= 1
-  double min_ratio = 0.1;         ///< least mean log density ratio to all models, nats per feature
-  double min_fit = 0.72;          ///< least intersection with the model's histogram, in [0, 1]
+  DissertationParameters steps; ///< of which background, min_cluster, seed, threads are used
+  /** \brief Edge of the cells in the unit of the scene, if known: then the share of a model's
+   * surface that was found counts. 0: unknown. */
+  double leaf = 0;
+  double reach = 1.1;         ///< a place extends to this many r_max from its centre, >= 1
+  double place_spacing = 0.8; ///< between places, in r_mean of the smallest object, > 0
+  std::size_t scan_cells = 128;     ///< cells of a place by which a model is tried, in [3, 4096]
+  std::size_t settling_cells = 256; ///< the same for what is promising, in [3, 4096]
+  unsigned recentrings = 3;         ///< times that a place moves to what supports the model, >= 1
+  unsigned probes = 32; ///< cells of an explanation by which the support of a cell is judged, >= 1
+  std::uint64_t features = 50000; ///< pairs by which an explanation is judged, >= 1
+  double min_fit = 0.72; ///< least intersection with the model's histogram, in [0, 1]
+  /** \brief Fit that is worth nothing, in [0, 1]: explanations are chosen to maximise the sum of
+   * cells times (fit - junk_fit). */
+  double junk_fit = 0.6;
+  double strong_fit = 0.86; ///< from here on, no rival is looked for, in [0, 1]
+  unsigned rounds = 2; ///< times that explanations are sought, then on what is left, in [1, 255]
   unsigned vote_pairs = 24; ///< BackgroundTreatment::Model: pairs by which a cell is judged, >= 1
   double vote_share = 0.3;  ///< a cell is background from this share of its pairs on, in (0, 1]
   double vote_radius = 0.3; ///< partners lie within this share of the background's delta_max, > 0
+  /** \brief BackgroundTreatment::Ignore: the same for a background learned from the scene's long
+   * pairs; the radius is a share of the largest object's delta_max. */
+  double uniform_vote_share = 0.4;
+  double uniform_vote_radius = 1;
 };
 
 /** \brief Interprets a scene by what explains it best.

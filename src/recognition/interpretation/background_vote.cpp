@@ -10,6 +10,9 @@ namespace interpretation {
 namespace {
 
 constexpr std::uint64_t kVoteStream = 0x766f7465ULL;
+constexpr std::uint64_t kLongStream = 0x6c6f6e67ULL;
+constexpr std::uint64_t kLongDraws = 200000;
+constexpr float kFewestLongPairs = 2000; ///< a bin of 1 % then has 20
 constexpr std::size_t kBlock = 256; ///< cells judged at a time by one thread
 
 /** \brief Is a pair more likely on a background model than on every object? */
@@ -56,14 +59,14 @@ neighbourhood(const SceneModels& models, double share)
   return smallest;
 }
 
-} // namespace
-
+/** \brief Background are the cells of which enough pairs with neighbours within \p radius are, by
+ * \p is_background (angular bin, squared distance). */
+template <class IsBackground>
 std::vector<char>
-voteForBackground(const SceneData& scene, const LinearOctree& octree,
-                  const ExplanationParameters& p)
+vote(const SceneData& scene, const LinearOctree& octree, double radius, double share,
+     const ExplanationParameters& p, const IsBackground& is_background)
 {
   const std::size_t n = scene.cells.size();
-  const double radius = neighbourhood(scene.models, p.vote_radius);
   std::vector<char> background(n, 0);
   parallelFor((n + kBlock - 1) / kBlock, p.steps.threads, [&](std::size_t block, unsigned) {
     std::vector<PlaceRange> ranges;
@@ -77,11 +80,94 @@ voteForBackground(const SceneData& scene, const LinearOctree& octree,
       featuresOfPairs(scene.source, scene.models.resolution, first, second, features);
       std::size_t votes = 0;
       for (std::size_t k = 0; k < first.size(); ++k)
-        votes += isBackground(scene.models, features.angular_bin[k], features.delta_squared[k]);
-      background[i] = votes > 0 && static_cast<double>(votes) >= p.vote_share * p.vote_pairs;
+        votes += is_background(features.angular_bin[k], features.delta_squared[k]);
+      background[i] = votes > 0 && static_cast<double>(votes) >= share * p.vote_pairs;
     }
   });
   return background;
+}
+
+/** \brief Distribution of the angles of drawn pairs longer than every object, up to twice as long;
+ * empty if there are too few. */
+std::vector<float>
+anglesOfLongPairs(const SceneData& scene, std::uint64_t seed)
+{
+  const auto pairs = drawPairs(scene.cells.size(), kLongDraws, seed);
+  std::vector<std::uint32_t> first, second;
+  for (const auto& [a, b] : pairs) {
+    first.push_back(a);
+    second.push_back(b);
+  }
+  PairFeatures f;
+  featuresOfPairs(scene.source, scene.models.resolution, first, second, f);
+  const double longest = scene.models.largest_delta * scene.source.scale();
+  std::vector<float> angles(static_cast<std::size_t>(scene.models.resolution.angularBins()), 0.f);
+  float total = 0;
+  for (std::size_t i = 0; i < f.angular_bin.size(); ++i)
+    if (f.angular_bin[i] != kNoPairFeature && f.delta_squared[i] > longest * longest &&
+        f.delta_squared[i] <= 4 * longest * longest) {
+      angles[f.angular_bin[i]] += 1;
+      total += 1;
+    }
+  if (total < kFewestLongPairs)
+    return {};
+  for (float& a : angles)
+    a /= total;
+  return angles;
+}
+
+/** \brief P(angles | delta) of a model: its bins divided by the sum of their delta interval. */
+std::vector<float>
+conditionalOnDelta(const SceneModel& m)
+{
+  std::vector<float> out(m.h.size());
+  for (std::size_t begin = 0; begin < m.h.size(); begin += m.angular_bins) {
+    float sum = 0;
+    for (std::size_t a = 0; a < m.angular_bins; ++a)
+      sum += m.h[begin + a];
+    for (std::size_t a = 0; a < m.angular_bins; ++a)
+      out[begin + a] = sum > 0 ? m.h[begin + a] / sum : 0;
+  }
+  return out;
+}
+
+} // namespace
+
+std::vector<char>
+voteForBackground(const SceneData& scene, const LinearOctree& octree,
+                  const ExplanationParameters& p)
+{
+  return vote(scene, octree, neighbourhood(scene.models, p.vote_radius), p.vote_share, p,
+              [&](std::uint32_t angular_bin, float delta_squared) {
+                return isBackground(scene.models, angular_bin, delta_squared);
+              });
+}
+
+std::vector<char>
+voteForUniformBackground(const SceneData& scene, const LinearOctree& octree,
+                         const ExplanationParameters& p)
+{
+  if (scene.cells.size() < 2)
+    return {};
+  const auto background = anglesOfLongPairs(scene, p.steps.seed ^ kLongStream);
+  if (background.empty())
+    return {};
+  std::vector<std::vector<float>> conditional;
+  for (std::size_t k = 0; k < scene.models.objects; ++k)
+    conditional.push_back(conditionalOnDelta(scene.models.all[k]));
+  const double radius = p.uniform_vote_radius * scene.models.largest_delta;
+  return vote(scene, octree, radius, p.uniform_vote_share, p,
+              [&](std::uint32_t angular_bin, float delta_squared) {
+                if (angular_bin == kNoPairFeature)
+                  return false;
+                float object = 0;
+                for (std::size_t k = 0; k < conditional.size(); ++k) {
+                  const auto b = scene.models.all[k].bin(angular_bin, delta_squared);
+                  if (b != kBeyond)
+                    object = std::max(object, conditional[k][b]);
+                }
+                return background[angular_bin] > object;
+              });
 }
 
 } // namespace interpretation

@@ -4,6 +4,7 @@
 #include "pcl_surflet/core/linear_octree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -84,6 +85,21 @@ meanLogLikelihood(const Regrouping& groups, const SceneModel& model, float log_h
       continue;
     const auto bin = model.bin(groups.features.angular_bin[i], groups.features.delta_squared[i]);
     sum += bin == kBeyond ? log_h_min : model.log_h[bin];
+    ++n;
+  }
+  return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);
+}
+
+double
+meanLogDensity(const Regrouping& groups, const SceneModel& model)
+{
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < groups.first.size(); ++i) {
+    if (groups.features.angular_bin[i] == kNoPairFeature)
+      continue;
+    sum += std::log(static_cast<double>(
+        model.densityOf(groups.features.angular_bin[i], groups.features.delta_squared[i])));
     ++n;
   }
   return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);

@@ -11,100 +11,11 @@ namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
-constexpr std::uint64_t kAgainStream = std::uint64_t{1} << 32; ///< explanations tried again
-constexpr std::uint64_t kRoundStride = std::uint64_t{1} << 24; ///< between the streams of rounds
-
-/** \brief Two places of which one is within this share of the smaller model's r_mean of the other
- * are the same. */
-constexpr double kSamePlace = 0.25;
-
-bool
-acceptable(const Explanation& e, const ExplanationParameters& p)
-{
-  return e.cells.size() >= p.steps.min_cluster && e.ratio >= p.min_ratio && e.fit >= p.min_fit;
-}
-
-/** \brief Centroids of proposed clusters, those next to each other once. */
-std::vector<std::array<double, 3>>
-placesOf(const SceneData& scene, const std::vector<ClustersOfModel>& clusters)
-{
-  double smallest = scene.models.all[0].model->r_mean;
-  for (std::size_t k = 0; k < scene.models.objects; ++k)
-    smallest = std::min(smallest, scene.models.all[k].model->r_mean);
-  std::vector<std::array<double, 3>> places;
-  for (const auto& list : clusters)
-    for (const auto& c : list) {
-      const auto p = centroidOf(scene.cells, c.surflets);
-      const bool known = std::any_of(places.begin(), places.end(), [&](const auto& q) {
-        return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]) < kSamePlace * smallest;
-      });
-      if (!known)
-        places.push_back(p);
-    }
-  return places;
-}
-
-/** \brief Leaves the most worthy of those explanations that came to the same place. */
-std::vector<Explanation>
-withoutRepetitions(const SceneData& scene, std::vector<Explanation> all)
-{
-  std::stable_sort(all.begin(), all.end(),
-                   [](const auto& a, const auto& b) { return a.worth() > b.worth(); });
-  std::vector<Explanation> kept;
-  for (auto& e : all) {
-    const double near = kSamePlace * scene.models.all[e.model].model->r_mean;
-    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Explanation& k) {
-      return k.model == e.model && std::hypot(k.place[0] - e.place[0], k.place[1] - e.place[1],
-                                              k.place[2] - e.place[2]) < near;
-    });
-    if (!known && !e.cells.empty())
-      kept.push_back(std::move(e));
-  }
-  return kept;
-}
-
-/** \brief Takes the best explanation again and again; the others must do without its cells. */
-std::vector<Explanation>
-bestFirst(const SceneData& scene, OpenCells& open, std::vector<Explanation> all,
-          std::uint64_t stream, const ExplanationParameters& p)
-{
-  std::vector<Explanation> accepted;
-  stream += kAgainStream;
-  const auto worthLess = [](const auto& a, const auto& b) { return a.worth() < b.worth(); };
-  while (!all.empty()) {
-    const auto best = std::max_element(all.begin(), all.end(), worthLess);
-    Explanation e = std::move(*best);
-    all.erase(best);
-    if (!acceptable(e, p))
-      continue;
-    const bool stale = std::any_of(e.cells.begin(), e.cells.end(),
-                                   [&](std::uint32_t i) { return open.taken[i] != 0; });
-    if (stale) {
-      e = settle(scene, open, e.model, e.place, ++stream, p);
-      if (!e.cells.empty())
-        confirm(scene, open, stream, p, e);
-      all.push_back(std::move(e));
-      continue;
-    }
-    for (const auto i : e.cells)
-      open.taken[i] = 1;
-    accepted.push_back(std::move(e));
-  }
-  return accepted;
-}
-
-Detection
-detectionOf(const SceneData& scene, Explanation&& e)
-{
-  Detection d;
-  d.model = scene.models.all[e.model].index;
-  d.label = scene.models.all[e.model].model->label;
-  d.centroid = centroidOf(scene.cells, e.cells);
-  d.score = e.ratio;
-  d.fit = e.fit;
-  d.cells = std::move(e.cells);
-  return d;
-}
+/** \brief Segments whose few pairs fit less than this are not completed. */
+constexpr double kLeastRoughFit = 0.45;
+constexpr unsigned kSettlings = 2;
+constexpr unsigned kCompletions = 2;
+constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
 
 void
 check(const ExplanationParameters& p)
@@ -115,64 +26,96 @@ check(const ExplanationParameters& p)
       throw std::invalid_argument(std::string("pcl_surflet: ") + what);
   };
   require(p.reach >= 1 && std::isfinite(p.reach), "reach must be at least 1 and finite");
-  require(p.rounds > 0 && p.rounds < 256, "rounds must be in [1, 255]");
-  require(p.settling_cells > 1, "settling_cells must be at least 2");
-  require(p.probes > 0, "probes must be positive");
-  require(p.max_crosstalk >= 0 && p.max_crosstalk <= 1, "max_crosstalk must be in [0, 1]");
-  require(p.max_regroupings > 0, "max_regroupings must be positive");
-  require(std::isfinite(p.max_surprise), "max_surprise must be finite");
-  require(p.peeled_share > 0 && p.peeled_share < 1, "peeled_share must be in (0, 1)");
+  require(p.place_spacing > 0 && std::isfinite(p.place_spacing), "place_spacing must be positive");
+  require(p.scan_cells > 2 && p.scan_cells <= 4096, "scan_cells must be in [3, 4096]");
+  require(p.settling_cells > 2 && p.settling_cells <= 4096, "settling_cells must be in [3, 4096]");
   require(p.recentrings > 0, "recentrings must be positive");
+  require(p.probes > 0, "probes must be positive");
   require(p.features > 0, "features must be positive");
-  require(std::isfinite(p.min_ratio), "min_ratio must be finite");
   require(p.min_fit >= 0 && p.min_fit <= 1, "min_fit must be in [0, 1]");
+  require(p.junk_fit >= 0 && p.junk_fit <= 1, "junk_fit must be in [0, 1]");
+  require(p.strong_fit >= 0 && p.strong_fit <= 1, "strong_fit must be in [0, 1]");
+  require(p.rounds > 0 && p.rounds < 256, "rounds must be in [1, 255]");
   require(p.vote_pairs > 0, "vote_pairs must be positive");
   require(p.vote_share > 0 && p.vote_share <= 1, "vote_share must be in (0, 1]");
   require(p.vote_radius > 0 && std::isfinite(p.vote_radius), "vote_radius must be positive");
 }
 
-/** \brief Steps 1 to 4 of the open cells of the scene: places to look at. */
-std::vector<std::array<double, 3>>
-proposePlaces(const SceneData& scene, const OpenCells& open, const ModelDatabase& database,
-              const ExplanationParameters& p, InterpretationDiagnostics& diagnostics)
+/** \brief Nats per pair by which the model exceeds the best other one on the cells. */
+double
+scoreOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
 {
-  Indices left;
-  for (std::uint32_t i = 0; i < open.taken.size(); ++i)
-    if (!open.taken[i])
-      left.push_back(i);
-  const SurfletSet cells = scene.cells.subset(left);
-  const PairSource source(cells);
-  const SceneModels models = sceneModels(database, false, source.scale()); // the background is gone
-  const SceneData rest{cells, source, models};
-  const auto selected = preselect(rest, p.steps, diagnostics);
-  std::vector<ClustersOfModel> clusters(models.objects);
-  parallelFor(models.objects, p.steps.threads, [&](std::size_t k, unsigned) {
-    clusters[k] =
-        proposeClusters(rest, k, selected[k], p.steps, diagnostics.models[models.all[k].index]);
-  });
-  return placesOf(rest, clusters);
+  Regrouping groups;
+  groups.draw(scene, e.cells, seed, kScoreStream);
+  const auto& models = scene.models;
+  const double own = meanLogDensity(groups, models.all[e.model]);
+  double rival = -std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < models.objects; ++k)
+    if (k != e.model)
+      rival = std::max(rival, meanLogDensity(groups, models.all[k]));
+  return std::isfinite(rival) ? own - rival : 0;
 }
 
-/** \brief One round: proposes places, tries every model there, takes the best explanations. */
-std::vector<Explanation>
-explainOpenCells(const SceneData& scene, OpenCells& open, const ModelDatabase& database,
-                 unsigned round, ExplanationParameters p, InterpretationDiagnostics& diagnostics)
+Detection
+detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
 {
-  p.steps.seed = mix64(p.steps.seed) + round; // fresh draws
-  const std::uint64_t stream = round * kRoundStride;
-  const std::size_t models = scene.models.objects;
-  const auto places = proposePlaces(scene, open, database, p, diagnostics);
-  std::vector<Explanation> all(places.size() * models);
-  parallelFor(all.size(), p.steps.threads, [&](std::size_t i, unsigned) {
-    all[i] = settle(scene, open, i % models, places[i / models], stream + i, p);
-  });
-  all = withoutRepetitions(scene, std::move(all));
-  parallelFor(all.size(), p.steps.threads,
-              [&](std::size_t i, unsigned) { confirm(scene, open, stream + i, p, all[i]); });
-  return bestFirst(scene, open, std::move(all), stream, p);
+  const SceneModel& model = scene.models.all[e.model];
+  Detection d;
+  d.model = model.index;
+  d.label = model.model->label;
+  d.centroid = centroidOf(scene.cells, e.cells);
+  d.score = scoreOf(scene, e, seed);
+  d.fit = e.fit;
+  d.cells = std::move(e.cells);
+  return d;
 }
 
 } // namespace
+
+Explaining::Explaining(const SceneData& s, const ExplanationParameters& p)
+    : scene(s), parameters(p), memory(resolveThreads(p.steps.threads))
+{
+  openExcept(std::vector<char>(s.cells.size(), 0));
+}
+
+void
+Explaining::openExcept(const std::vector<char>& taken)
+{
+  std::vector<PointIndex> left;
+  for (std::size_t i = 0; i < taken.size(); ++i)
+    if (!taken[i] && !(background.size() == taken.size() && background[i]))
+      left.push_back(static_cast<PointIndex>(i));
+  open.build({scene.cells.x.data(), scene.cells.y.data(), scene.cells.z.data(), 1,
+              scene.cells.size()},
+             &left);
+}
+
+Explanation
+lookClosely(Explaining& work, const Segment& rough, SupportMemory& memory)
+{
+  const auto& p = work.parameters;
+  const SceneModel& model = work.scene.models.all[rough.model];
+  const double radius = work.radiusOf(rough.model);
+  Segment s = rough;
+  for (unsigned k = 0; k < kSettlings; ++k) {
+    drawSample(work.scene, work.open, s.centre, radius, p.settling_cells, memory);
+    s = segment(work.scene, rough.model, s.centre, radius, memory);
+    if (s.core.size() < 3 || s.rough_fit < kLeastRoughFit)
+      return {};
+  }
+  Explanation e;
+  e.model = rough.model;
+  e.cells = s.core;
+  const Indices ball = cellsWithin(work.open, s.centre, radius, memory.ranges);
+  for (unsigned k = 0; k < kCompletions && e.cells.size() > 2; ++k) {
+    supportOf(work.scene, model, ball, e.cells, p.probes, memory, e.supported);
+    e.cells.clear();
+    for (const auto& c : e.supported)
+      e.cells.push_back(c.cell);
+  }
+  e.centre = centroidOf(work.scene.cells, e.cells);
+  return e;
+}
 
 } // namespace interpretation
 
@@ -184,24 +127,23 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   check(p);
   const PairSource source(cells);
   const bool modelled = p.steps.background == BackgroundTreatment::Model;
-  const SceneModels models = sceneModels(database, modelled, source.scale());
+  SceneModels models = sceneModels(database, modelled, source.scale());
   checkModels(models, p.steps);
+  for (auto& m : models.all)
+    m.expected_cells = p.leaf > 0 ? kCellsOfArea * m.model->surface_area / (p.leaf * p.leaf) : 0;
   const SceneData scene{cells, source, models};
   SceneInterpretation result;
   result.diagnostics = emptyDiagnostics(database);
 
-  OpenCells open;
-  open.octree.build({cells.x.data(), cells.y.data(), cells.z.data(), 1, cells.size()});
-  open.taken.assign(cells.size(), 0);
-  if (modelled)
-    open.taken = voteForBackground(scene, open.octree, p);
-  for (unsigned round = 0; round < p.rounds; ++round) {
-    InterpretationDiagnostics later = emptyDiagnostics(database);
-    auto found =
-        explainOpenCells(scene, open, database, round, p, round == 0 ? result.diagnostics : later);
-    for (auto& e : found)
-      result.detections.push_back(detectionOf(scene, std::move(e)));
+  Explaining work(scene, p);
+  if (p.steps.background != BackgroundTreatment::Exclude) {
+    work.background = modelled ? voteForBackground(scene, work.open, p)
+                               : voteForUniformBackground(scene, work.open, p);
+    work.openExcept(std::vector<char>(cells.size(), 0));
   }
+  const auto candidates = scan(work);
+  for (auto& e : choose(work, candidates))
+    result.detections.push_back(detectionOf(scene, std::move(e), p.steps.seed));
   for (const auto& d : result.detections)
     ++result.diagnostics.models[d.model].detections;
   return result;

@@ -2,8 +2,7 @@
  * The parts of interpretation by explanation; internal, not installed. */
 #pragma once
 
-#include "pcl_surflet/core/linear_octree.h"
-#include "steps.h"
+#include "support.h"
 
 namespace pcl_surflet {
 namespace interpretation {
@@ -11,39 +10,52 @@ namespace interpretation {
 /** \brief A model at a place, and the cells that support it there. */
 struct Explanation {
   std::size_t model = 0;
-  std::array<double, 3> place{}; ///< centre
-  Indices cells;
-  double ratio = 0; ///< mean log of the model's density over the mean density of all models
-  double fit = 0;   ///< intersection of the cells' histogram with the model's
+  Centre centre{};
+  std::vector<CellSupport> supported; ///< all cells that support it, whoever owns them
+  Indices cells;                      ///< those of them that are its own, ascending
+  double fit = 0; ///< intersection of the cells' histogram with the model's
+};
 
-  /** \brief Nats won by this explanation. */
+/** \brief What the parts of one interpretation share. */
+struct Explaining {
+  const SceneData& scene;
+  const ExplanationParameters& parameters;
+  std::vector<char> background;      ///< one entry a cell, or none
+  LinearOctree open;                 ///< the cells that nothing explains yet
+  std::vector<SupportMemory> memory; ///< one a thread
+
+  Explaining(const SceneData& scene, const ExplanationParameters& parameters);
+
+  /** \brief Leaves those cells open that are neither taken nor background. */
+  void openExcept(const std::vector<char>& taken);
   double
-  worth() const
+  radiusOf(std::size_t model) const
   {
-    return static_cast<double>(cells.size()) * ratio;
+    return parameters.reach * scene.models.all[model].model->r_max;
   }
 };
 
-/** \brief Cells that no explanation has taken yet, and how to find them. */
-struct OpenCells {
-  LinearOctree octree;
-  std::vector<char> taken;
-};
+/** \brief Tries every model all over the open cells: rough segments, the most worthy first. */
+std::vector<Segment> scan(Explaining& work);
 
-/** \brief Moves from \p place to where cells support \p model, and judges them roughly; no cells if
- * they do not. Deterministic in \p stream. */
-Explanation settle(const SceneData& scene, const OpenCells& open, std::size_t model,
-                   const std::array<double, 3>& place, std::uint64_t stream,
-                   const ExplanationParameters& parameters);
+/** \brief Looks closely at a segment on the open cells; no cells if it does not hold. */
+Explanation lookClosely(Explaining& work, const Segment& rough, SupportMemory& memory);
 
-/** \brief Completes the cells of a settled explanation and judges them. */
-void confirm(const SceneData& scene, const OpenCells& open, std::uint64_t stream,
-             const ExplanationParameters& parameters, Explanation& explanation);
+/** \brief Looks closely at all, and leaves one of those that came to the same; best fit first. */
+std::vector<Explanation> lookClosely(Explaining& work, const std::vector<Segment>& rough);
+
+/** \brief Chooses explanations that together explain the scene best, and divides the cells. */
+std::vector<Explanation> choose(Explaining& work, const std::vector<Segment>& candidates);
 
 /** \brief Which cells are background: those whose pairs with random neighbours a background model
  * explains better than every object. One entry a cell. */
 std::vector<char> voteForBackground(const SceneData& scene, const LinearOctree& octree,
                                     const ExplanationParameters& parameters);
+
+/** \brief The same without a model of it: the background is learned from pairs that are too long
+ * for every object. No cell is, where there are hardly any such pairs. */
+std::vector<char> voteForUniformBackground(const SceneData& scene, const LinearOctree& octree,
+                                           const ExplanationParameters& parameters);
 
 } // namespace interpretation
 } // namespace pcl_surflet

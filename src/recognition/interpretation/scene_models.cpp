@@ -1,48 +1,98 @@
 #include "scene_models.h"
 
+#include "pcl_surflet/core/counter_random.h"
+
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
-Histogram
-meanHistogram(const HistogramModel& model)
+constexpr double kPi = 3.14159265358979323846;
+
+/** \brief Fills SceneModel::support and what is expected of it. */
+void
+fillSupport(const Histogram& penalised, const std::vector<float>& chance, SceneModel& m)
 {
-  Histogram mean(static_cast<std::size_t>(model.resolution.bins()), 0.0);
-  for (const auto& member : model.members)
-    for (std::size_t b = 0; b < mean.size(); ++b)
-      mean[b] += member.histogram[b] / static_cast<double>(model.members.size());
-  return mean;
+  const int intervals = m.model->resolution.delta;
+  for (int k = 0; k < intervals; ++k) {
+    // Distances of points on a sphere have the density 2 d / D^2.
+    const double share = (2.0 * k + 1) / (static_cast<double>(intervals) * intervals);
+    for (std::size_t a = 0; a < chance.size(); ++a) {
+      const double p = penalised[m.support.size()];
+      const double ratio = std::log(p / (share * chance[a]));
+      m.support.push_back(std::clamp(static_cast<float>(ratio), -kMostSupport, kMostSupport));
+      m.expected_support += p * m.support.back();
+    }
+  }
+}
+
+} // namespace
+
+std::vector<float>
+chanceAngles(const Resolution& resolution)
+{
+  constexpr std::uint32_t kSurflets = 400; // 80,000 pairs: one per cent for a bin of average share
+  CounterRandom random(1);
+  const auto direction = [&]() -> std::array<float, 3> {
+    const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * kPi),
+                 r = std::sqrt(1 - z * z);
+    return {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
+            static_cast<float>(z)};
+  };
+  SurfletSet set;
+  std::vector<std::uint32_t> first, second;
+  for (std::uint32_t i = 0; i < kSurflets; ++i) {
+    const auto p = direction(), n = direction();
+    set.push_back({p[0], p[1], p[2], n[0], n[1], n[2]});
+    for (std::uint32_t j = 0; j < i; ++j) {
+      first.push_back(i);
+      second.push_back(j);
+    }
+  }
+  PairFeatures features;
+  featuresOfPairs(PairSource(set), resolution, first, second, features);
+  std::vector<float> chance(static_cast<std::size_t>(resolution.angularBins()), 0.5f);
+  float total = 0.5f * static_cast<float>(chance.size());
+  for (const auto bin : features.angular_bin)
+    if (bin != kNoPairFeature) {
+      chance[bin] += 1;
+      total += 1;
+    }
+  for (float& c : chance)
+    c /= total;
+  return chance;
 }
 
 SceneModel
-sceneModel(const ModelDatabase& database, std::size_t index, double h_min, double scale)
+sceneModel(const HistogramModel& model, double h_min, double scale,
+           const std::vector<float>& chance)
 {
   SceneModel m;
-  m.index = index;
-  m.model = &database[index];
-  const Histogram raw = meanHistogram(*m.model);
+  m.model = &model;
+  // Further members are for conditions that a complete scene does not have.
+  const auto& complete = model.members.front().histogram;
+  const Histogram raw(complete.begin(), complete.end());
   const Histogram penalised = penalize(raw, h_min);
   m.h.assign(raw.begin(), raw.end());
   for (const double v : penalised) {
     m.log_h.push_back(static_cast<float>(std::log(v)));
     m.expected_log += v * std::log(v);
   }
-  const double delta_max = m.model->delta_max;
-  for (int k = 0; k + 1 < m.model->resolution.delta; ++k)
-    m.border.push_back(deltaBorder(k, m.model->resolution, delta_max, scale));
-  const double width = delta_max * scale / m.model->resolution.delta;
+  const double delta_max = model.delta_max;
+  for (int k = 0; k + 1 < model.resolution.delta; ++k)
+    m.border.push_back(deltaBorder(k, model.resolution, delta_max, scale));
+  const double width = delta_max * scale / model.resolution.delta;
   for (const double v : penalised)
     m.density.push_back(static_cast<float>(v / width));
   m.least_density = static_cast<float>(h_min / width);
   m.longest = static_cast<float>(delta_max * scale * delta_max * scale);
-  m.angular_bins = static_cast<std::uint32_t>(m.model->resolution.angularBins());
+  m.angular_bins = static_cast<std::uint32_t>(model.resolution.angularBins());
+  fillSupport(penalised, chance, m);
   return m;
 }
-
-} // namespace
 
 SceneModels
 sceneModels(const ModelDatabase& database, bool with_background, double scale)
@@ -51,10 +101,14 @@ sceneModels(const ModelDatabase& database, bool with_background, double scale)
   models.resolution = database.resolution();
   const double h_min = database.penaltyMinimum();
   models.log_h_min = static_cast<float>(std::log(h_min));
+  const auto chance = chanceAngles(models.resolution);
   for (const auto role : {ModelRole::Object, ModelRole::Background}) {
     for (std::size_t i = 0; i < database.size(); ++i)
       if (database[i].role == role && (role == ModelRole::Object || with_background))
-        models.all.push_back(sceneModel(database, i, h_min, scale));
+      {
+        models.all.push_back(sceneModel(database[i], h_min, scale, chance));
+        models.all.back().index = i;
+      }
     if (role == ModelRole::Object)
       models.objects = models.all.size();
   }

@@ -49,6 +49,9 @@ struct Regrouping {
 /** \brief Mean ln H over the features of a regrouping [Wahl 2007, Eq. 5.16]; -inf without any. */
 double meanLogLikelihood(const Regrouping& groups, const SceneModel& model, float log_h_min);
 
+/** \brief Mean ln of the model's density over the features of a regrouping; -inf without any. */
+double meanLogDensity(const Regrouping& groups, const SceneModel& model);
+
 /** \brief Step 1, pre-selection: S_M for every object [Wahl 2007, Eq. 5.1-5.11]. */
 std::vector<Indices> preselect(const SceneData& scene, const DissertationParameters& parameters,
                                InterpretationDiagnostics& diagnostics);

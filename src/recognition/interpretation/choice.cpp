@@ -1,0 +1,296 @@
+#include "explanation.h"
+
+#include "pcl_surflet/core/counter_random.h"
+#include "pcl_surflet/core/parallel.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace pcl_surflet {
+namespace interpretation {
+namespace {
+
+constexpr std::uint64_t kFitStream = std::uint64_t{3} << 40;
+/** \brief An explanation that gained or lost less than this share of its cells keeps its fit. */
+constexpr double kSameCells = 0.02;
+/** \brief Explanations of one model that share this part of the smaller one's cells are one. */
+constexpr double kSameExplanation = 0.6;
+constexpr unsigned kPolishings = 2;
+
+/** \brief Division of the cells among explanations. */
+class Division {
+public:
+  explicit Division(Explaining& work) : work_(work), best_(work.scene.cells.size(), 0.f), owner_(best_.size(), kNobody)
+  {
+  }
+
+  /** \brief Every cell goes to the explanation that it supports most; fits are computed anew where
+   * cells changed, everywhere if \p all. */
+  void divide(std::vector<Explanation>& set, bool all);
+
+private:
+  static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
+  Explaining& work_;
+  std::vector<float> best_;
+  std::vector<std::uint32_t> owner_;
+};
+
+void
+judge(Explaining& work, Explanation& e, SupportMemory& memory)
+{
+  const auto& p = work.parameters;
+  e.fit = e.cells.size() < p.steps.min_cluster
+              ? 0
+              : fitOf(work.scene, work.scene.models.all[e.model], e.cells, p.features,
+                      p.steps.seed ^ kFitStream, memory);
+}
+
+void
+Division::divide(std::vector<Explanation>& set, bool all)
+{
+  for (std::uint32_t k = 0; k < set.size(); ++k)
+    for (const auto& s : set[k].supported)
+      if (s.support > best_[s.cell]) {
+        best_[s.cell] = s.support;
+        owner_[s.cell] = k;
+      }
+  std::vector<std::size_t> changed;
+  for (std::uint32_t k = 0; k < set.size(); ++k) {
+    Indices own;
+    for (const auto& s : set[k].supported)
+      if (owner_[s.cell] == k)
+        own.push_back(s.cell);
+    const double before = static_cast<double>(set[k].cells.size());
+    if (all || std::abs(static_cast<double>(own.size()) - before) > kSameCells * before)
+      changed.push_back(k);
+    set[k].cells = std::move(own);
+  }
+  for (const auto& e : set)
+    for (const auto& s : e.supported) {
+      best_[s.cell] = 0;
+      owner_[s.cell] = kNobody;
+    }
+  parallelFor(changed.size(), work_.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
+    judge(work_, set[changed[i]], work_.memory[worker]);
+  });
+}
+
+/** \brief The choice of explanations: cells explained, weighed by how much better than junk. */
+class Choice {
+public:
+  explicit Choice(Explaining& work) : work_(work), division_(work) {}
+
+  const std::vector<Explanation>&
+  chosen() const
+  {
+    return chosen_;
+  }
+  void add(const std::vector<Explanation>& candidates);
+  void polish();
+  bool exchangeWeak(const std::vector<Segment>& candidates);
+  std::vector<char> taken(std::size_t but = ~std::size_t{0}) const;
+
+private:
+  double value(const std::vector<Explanation>& set) const;
+  bool takeIfBetter(std::vector<Explanation> trial);
+  void dropWorthless();
+  std::vector<Segment> rivalsOf(const Explanation& e, const std::vector<Segment>& all) const;
+
+  Explaining& work_;
+  Division division_;
+  std::vector<Explanation> chosen_;
+};
+
+double
+Choice::value(const std::vector<Explanation>& set) const
+{
+  double sum = 0;
+  for (const auto& e : set)
+    if (e.cells.size() >= work_.parameters.steps.min_cluster)
+      sum += static_cast<double>(e.cells.size()) * (e.fit - work_.parameters.junk_fit);
+  return sum;
+}
+
+bool
+Choice::takeIfBetter(std::vector<Explanation> trial)
+{
+  division_.divide(trial, false);
+  if (value(trial) <= value(chosen_))
+    return false;
+  chosen_ = std::move(trial);
+  return true;
+}
+
+/** \brief Takes explanations out as long as the others do better without one. */
+void
+Choice::dropWorthless()
+{
+  for (std::size_t k = 0; k < chosen_.size();) {
+    auto trial = chosen_;
+    trial.erase(trial.begin() + static_cast<std::ptrdiff_t>(k));
+    if (chosen_[k].fit < work_.parameters.min_fit) {
+      division_.divide(trial, false);
+      chosen_ = std::move(trial);
+      k = 0;
+    }
+    else
+      k = takeIfBetter(std::move(trial)) ? 0 : k + 1;
+  }
+}
+
+/** \brief Tries the candidates, best fit first; each stays if all together explain more with it. */
+void
+Choice::add(const std::vector<Explanation>& candidates)
+{
+  for (const auto& e : candidates) {
+    if (e.fit < work_.parameters.min_fit)
+      continue;
+    auto trial = chosen_;
+    trial.push_back(e);
+    takeIfBetter(std::move(trial));
+  }
+  dropWorthless();
+}
+
+/** \brief Looks for supporters of what has been chosen again, now that its cells are its own. */
+void
+Choice::polish()
+{
+  const auto& p = work_.parameters;
+  for (unsigned round = 0; round < kPolishings; ++round) {
+    parallelFor(chosen_.size(), p.steps.threads, [&](std::size_t k, unsigned worker) {
+      Explanation& e = chosen_[k];
+      SupportMemory& memory = work_.memory[worker];
+      e.centre = centroidOf(work_.scene.cells, e.cells);
+      const Indices ball =
+          cellsWithin(work_.open, e.centre, work_.radiusOf(e.model), memory.ranges);
+      supportOf(work_.scene, work_.scene.models.all[e.model], ball, e.cells, p.probes, memory,
+                e.supported);
+    });
+    division_.divide(chosen_, round + 1 == kPolishings);
+    chosen_.erase(std::remove_if(chosen_.begin(), chosen_.end(),
+                                 [&](const Explanation& e) {
+                                   return e.cells.size() < p.steps.min_cluster;
+                                 }),
+                  chosen_.end());
+  }
+  dropWorthless();
+}
+
+/** \brief Cells of all that has been chosen \p but one. */
+std::vector<char>
+Choice::taken(std::size_t but) const
+{
+  std::vector<char> taken(work_.scene.cells.size(), 0);
+  for (std::size_t k = 0; k < chosen_.size(); ++k)
+    if (k != but)
+      for (const auto i : chosen_[k].cells)
+        taken[i] = 1;
+  return taken;
+}
+
+std::vector<Segment>
+Choice::rivalsOf(const Explanation& e, const std::vector<Segment>& all) const
+{
+  std::vector<Segment> rivals;
+  const double reach = work_.scene.models.all[e.model].model->r_max;
+  for (const auto& s : all)
+    if (s.model != e.model && std::hypot(s.centre[0] - e.centre[0], s.centre[1] - e.centre[1],
+                                         s.centre[2] - e.centre[2]) < reach)
+      rivals.push_back(s);
+  return rivals;
+}
+
+/** \brief Tries what else could explain the cells of a weak explanation: a large model that fits
+ * two objects a little may have been there before either of them. \return whether it changed */
+bool
+Choice::exchangeWeak(const std::vector<Segment>& candidates)
+{
+  for (std::size_t k = 0; k < chosen_.size(); ++k) {
+    if (chosen_[k].fit >= work_.parameters.strong_fit)
+      continue;
+    work_.openExcept(taken(k));
+    const auto others = lookClosely(work_, rivalsOf(chosen_[k], candidates));
+    work_.openExcept(std::vector<char>(work_.scene.cells.size(), 0));
+    const auto before = chosen_;
+    auto without = chosen_;
+    without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
+    division_.divide(without, false);
+    chosen_ = std::move(without);
+    add(others);
+    if (value(chosen_) > value(before))
+      return true;
+    chosen_ = before;
+  }
+  return false;
+}
+
+} // namespace
+
+/** \brief Keeps the best of explanations of one model by much the same cells. */
+std::vector<Explanation>
+withoutRepetitions(std::vector<Explanation> all, std::size_t cells)
+{
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.fit > b.fit; });
+  std::vector<char> mark(cells, 0);
+  std::vector<Explanation> kept;
+  for (auto& e : all) {
+    if (e.cells.empty())
+      continue;
+    const bool known = std::any_of(kept.begin(), kept.end(), [&](const Explanation& k) {
+      if (k.model != e.model)
+        return false;
+      for (const auto i : k.cells)
+        mark[i] = 1;
+      std::size_t both = 0;
+      for (const auto i : e.cells)
+        both += mark[i];
+      for (const auto i : k.cells)
+        mark[i] = 0;
+      return static_cast<double>(both) >
+             kSameExplanation * static_cast<double>(std::min(e.cells.size(), k.cells.size()));
+    });
+    if (!known)
+      kept.push_back(std::move(e));
+  }
+  return kept;
+}
+
+std::vector<Explanation>
+lookClosely(Explaining& work, const std::vector<Segment>& rough)
+{
+  std::vector<Explanation> all(rough.size());
+  parallelFor(rough.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
+    all[i] = lookClosely(work, rough[i], work.memory[worker]);
+    if (!all[i].cells.empty())
+      judge(work, all[i], work.memory[worker]);
+  });
+  return withoutRepetitions(std::move(all), work.scene.cells.size());
+}
+
+std::vector<Explanation>
+choose(Explaining& work, const std::vector<Segment>& candidates)
+{
+  Choice choice(work);
+  choice.add(lookClosely(work, candidates));
+  choice.polish();
+  for (unsigned round = 1; round < work.parameters.rounds; ++round) {
+    const std::size_t before = choice.chosen().size();
+    work.openExcept(choice.taken());
+    const auto rest = lookClosely(work, candidates);
+    work.openExcept(std::vector<char>(work.scene.cells.size(), 0));
+    choice.add(rest);
+    if (choice.chosen().size() != before)
+      choice.polish();
+    const bool changed = choice.exchangeWeak(candidates);
+    if (changed)
+      choice.polish();
+    else if (choice.chosen().size() == before)
+      break;
+  }
+  return choice.chosen();
+}
+
+} // namespace interpretation
+} // namespace pcl_surflet

@@ -1,0 +1,83 @@
+/** \file
+ * Which cells of a place support a model: those whose pairs with one another the model explains
+ * better than chance; internal, not installed. */
+#pragma once
+
+#include "pcl_surflet/core/linear_octree.h"
+#include "steps.h"
+
+namespace pcl_surflet {
+namespace interpretation {
+
+using Centre = std::array<double, 3>;
+
+/** \brief Cells drawn evenly from those within a ball, and the features of all their pairs. */
+struct Sample {
+  Indices cells;              ///< in the order of the octree
+  std::size_t population = 0; ///< cells in the ball
+  PairFeatures features;      ///< of the pairs (1,0), (2,0), (2,1), (3,0) ...
+};
+
+/** \brief Memory of a thread, used again and again. */
+struct SupportMemory {
+  Sample sample;
+  std::vector<PlaceRange> ranges;
+  std::vector<std::uint32_t> first, second, bins;
+  std::vector<float> ratio, weight, support;
+  std::vector<std::uint32_t> counts;
+  PairFeatures features;
+};
+
+/** \brief The part of a sample that supports a model. */
+struct Segment {
+  std::size_t model = 0;
+  Centre centre{};      ///< of the supporting cells
+  double cells = 0;     ///< estimated number of supporting cells in the ball
+  double support = 0;   ///< their mean support, nats per pair
+  double rough_fit = 0; ///< intersection of their few pairs with the model's histogram
+  Indices core;         ///< the supporting cells of the sample
+
+  /** \brief Nats won by explaining these cells. */
+  double
+  worth() const
+  {
+    return cells * support;
+  }
+};
+
+/** \brief All cells of \p octree within \p radius of \p centre. */
+Indices cellsWithin(const LinearOctree& octree, const Centre& centre, double radius,
+                    std::vector<PlaceRange>& ranges);
+
+/** \brief Draws at most \p most cells within the ball and computes the features of their pairs. */
+void drawSample(const SceneData& scene, const LinearOctree& octree, const Centre& centre,
+                double radius, std::size_t most, SupportMemory& memory);
+
+/** \brief Which cells of the memory's sample, within \p radius of \p centre, support the model?
+ *
+ * All begin with weight one. The support of a cell is the mean, over the others by their weight, of
+ * the logarithm of the model's probability of the pair over that of chance. A cell with support
+ * keeps its weight and one without loses it, first compared with the mean of all, until the
+ * weights have settled: a power iteration with a threshold. */
+Segment segment(const SceneData& scene, std::size_t model, const Centre& centre, double radius,
+                SupportMemory& memory);
+
+/** \brief A cell and its support by other cells, nats per pair. */
+struct CellSupport {
+  std::uint32_t cell = 0;
+  float support = 0;
+};
+
+/** \brief Those of \p cells that have support, each judged by \p probes of \p core, spread
+ * evenly over it. */
+void supportOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
+               const Indices& core, unsigned probes, SupportMemory& memory,
+               std::vector<CellSupport>& out);
+
+/** \brief Intersection of the histogram of \p cells, from \p features random pairs, with that of
+ * the model [Wahl 2007, Eq. 3.7]. */
+double fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
+             std::uint64_t features, std::uint64_t stream, SupportMemory& memory);
+
+} // namespace interpretation
+} // namespace pcl_surflet
