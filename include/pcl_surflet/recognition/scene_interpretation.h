@@ -99,8 +99,8 @@ struct SceneInterpretation {
  * [Wahl 2007, Sec. 5.4].
  *
  * \param cells the scene, reduced to mean surflets (reduceToCells())
- * \param database models and, for BackgroundTreatment::Model, background models. A model of several
- * members takes part with their mean histogram.
+ * \param database models and, for BackgroundTreatment::Model, background models. Of a
+ * model with several members the first takes part, which is that of the complete surface.
  *
  * **Readings.** A pair longer than a model's delta_max has the histogram value 0 there (it cannot
  * lie on the object) and is crosstalk in step 3. Regrouping joins every surflet of a set with
@@ -126,11 +126,11 @@ struct ExplanationParameters {
    * surface that was found counts. 0: unknown. */
   double leaf = 0;
   double reach = 1.1;         ///< a place extends to this many r_max from its centre, >= 1
-  double place_spacing = 0.8; ///< between places, in r_mean of the smallest object, > 0
+  double place_spacing = 1.2; ///< between places, in r_mean of the smallest object, > 0
   std::size_t scan_cells = 128;     ///< cells of a place by which a model is tried, in [3, 4096]
   std::size_t settling_cells = 256; ///< the same for what is promising, in [3, 4096]
   unsigned recentrings = 3;         ///< times that a place moves to what supports the model, >= 1
-  unsigned probes = 32; ///< cells of an explanation by which the support of a cell is judged, >= 1
+  unsigned probes = 16; ///< cells of an explanation by which the support of a cell is judged, >= 1
   std::uint64_t features = 50000; ///< pairs by which an explanation is judged, >= 1
   double min_fit = 0.72; ///< least intersection with the model's histogram, in [0, 1]
   /** \brief Fit that is worth nothing, in [0, 1]: explanations are chosen to maximise the sum of
@@ -143,29 +143,31 @@ struct ExplanationParameters {
   double vote_radius = 0.3; ///< partners lie within this share of the background's delta_max, > 0
   /** \brief BackgroundTreatment::Ignore: the same for a background learned from the scene's long
    * pairs; the radius is a share of the largest object's delta_max. */
-  double uniform_vote_share = 0.4;
-  double uniform_vote_radius = 1;
+  double uniform_vote_share = 0.6;
+  double uniform_vote_radius = 0.8;
 };
 
 /** \brief Interprets a scene by what explains it best.
  *
- * Steps 1 to 4 of the dissertation propose places. At every place each model is tried on *all*
- * cells there: refined as in step 3 until what is left supports the model, the place moved to the
- * middle of that. An explanation is worth its number of cells times the mean logarithm of the
- * model's density over the mean density of all models (bin masses divided by the width of the
- * delta intervals, so that models of different size can be compared). The best explanation is
- * taken, its cells are explained, and the others have to do with what is left. An explanation is
- * refused whose histogram does not intersect the model's by min_fit, so parts of unknown objects
- * stay unnamed. For BackgroundTreatment::Model cells are first judged one by one: background are
- * those whose pairs with their neighbours it explains better than every object.
+ * All models are tried all over the scene. At a place, cells are drawn evenly from a ball of the
+ * model's size and paired with each other. The *support* of a pair is the logarithm of the model's
+ * probability of its feature over that of chance, and the support of a cell is the mean over its
+ * pairs with all cells that have support themselves: a power iteration, where steps 2 and 3 of the
+ * dissertation erase crosstalk pair by pair. What supports each other is one object, whether or
+ * not others touch it. The place moves to its middle, then all cells of the ball are asked for
+ * their support, and the intersection of their histogram with the model's is the explanation's fit.
  *
- * What does not belong to the object is told from it by the likelihood of its pairs: the worst
- * cells are peeled off until the rest is nearly as likely as the model's own features. The database
- * should have seven intervals in every dimension; with five too few bins are empty. The diagnostics
- * are those of the first round.
+ * Explanations are chosen together, in place of steps 6 and 7: every cell goes to the chosen
+ * explanation that it supports most, and one more is chosen if the sum over all of cells times
+ * (fit - junk_fit) grows. Weak ones are tried against their rivals. What fits less than min_fit is
+ * refused, so unknown objects stay unnamed. For BackgroundTreatment::Model cells are first judged
+ * one by one: background are those whose pairs with their neighbours it explains better than every
+ * object. BackgroundTreatment::Ignore does the same with what the scene's own long pairs tell,
+ * those that no object can have.
  *
- * Limits, measured in doc/interpretation/results.md: of objects pushed together until they touch
- * little more than half are found, and the largest model takes cells of its neighbours.
+ * Models should be trained by trainForScenes() with seven intervals in every dimension; with five
+ * too few bins are empty. Results and limits are in doc/interpretation/results.md. Of the
+ * diagnostics, this method fills the number of detections.
  *
  * Exceptions and \p cells as in interpretByDissertation(). */
 PCL_SURFLET_API SceneInterpretation
@@ -173,7 +175,10 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
                        const ExplanationParameters& parameters = {});
 
 /** \brief Indices of the cells that are farther than \p distance from every surflet of
- * \p background, a scene sensed without objects: strategy A, exclusion [Wahl 2007, Sec. 5.4].
+ * \p background that looks the same way within 45 degrees: strategy A, exclusion by a scene sensed
+ * without objects [Wahl 2007, Sec. 5.4].
+ *
+ * Regardless of where they look, what stands on a table would lose its foot.
  *
  * \throws std::invalid_argument if \p distance is not positive and finite */
 PCL_SURFLET_API std::vector<std::uint32_t>

@@ -31,6 +31,15 @@ clustersOf(const SceneData& scene, std::size_t model, const Indices& selected,
   return clusters;
 }
 
+/** \brief What stands on a table has its lowest cells near the table's, but they look sideways or
+ * down. */
+bool
+haveLikeNormals(const SurfletSet& a, std::size_t i, const SurfletSet& b, std::size_t j)
+{
+  constexpr float kLeastCosine = 0.7f;
+  return a.nx[i] * b.nx[j] + a.ny[i] * b.ny[j] + a.nz[i] * b.nz[j] > kLeastCosine;
+}
+
 std::vector<Detection>
 detectionsOf(const SceneData& scene, std::vector<ClustersOfModel>& clusters)
 {
@@ -89,10 +98,15 @@ cellsAwayFrom(const SurfletSet& cells, const SurfletSet& background, double dist
       {background.x.data(), background.y.data(), background.z.data(), 1, background.size()});
   std::vector<std::uint32_t> away;
   std::vector<PlaceRange> near;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
     octree.regionRanges({cells.x[i], cells.y[i], cells.z[i]}, distance, near);
-    if (near.empty())
-      away.push_back(static_cast<std::uint32_t>(i));
+    bool is_background = false;
+    for (const auto& r : near)
+      for (std::uint32_t at = r.begin; at < r.end && !is_background; ++at)
+        is_background = haveLikeNormals(
+            cells, i, background, static_cast<std::size_t>(octree.indexAt(at)));
+    if (!is_background)
+      away.push_back(i);
   }
   return away;
 }

@@ -14,9 +14,7 @@ namespace {
 constexpr double kRadiusClass = 1.3;
 /** \brief Rough segments of one model nearer than this share of its r_mean are the same. */
 constexpr double kSamePlace = 0.4;
-/** \brief A rough segment needs this share of the cells of the model, if they are known ... */
-constexpr double kLeastCoverage = 0.3;
-/** \brief ... and this intersection. Few pairs make it lower than a fit: 0.5 to 0.7 where the model
+/** \brief A rough segment needs this intersection. Few pairs make it lower than a fit: 0.5 to 0.7 where the model
  * is right, 0.2 to 0.4 where it is not. */
 constexpr double kLeastRoughFit = 0.35;
 
@@ -70,10 +68,8 @@ radiusClasses(const Explaining& work)
 bool
 isPromising(const Explaining& work, const Segment& s)
 {
-  const double expected = work.scene.models.all[s.model].expected_cells;
-  return s.core.size() > 2 && s.support > 0 &&
-         s.cells >= static_cast<double>(work.parameters.steps.min_cluster) &&
-         s.cells >= kLeastCoverage * expected && s.rough_fit >= kLeastRoughFit;
+  return s.cells >= static_cast<double>(work.parameters.steps.min_cluster) &&
+         s.rough_fit >= kLeastRoughFit;
 }
 
 double

@@ -12,21 +12,27 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 
-/** \brief Fills SceneModel::support and what is expected of it. */
+/** \brief Fills SceneModel::support and what belongs to it. */
 void
-fillSupport(const Histogram& penalised, const std::vector<float>& chance, SceneModel& m)
+fillSupport(const Histogram& penalised, const std::vector<float>& chance, double scale,
+            SceneModel& m)
 {
   const int intervals = m.model->resolution.delta;
+  m.intervals_per_length = static_cast<float>(intervals / (m.model->delta_max * scale));
+  m.last_row = static_cast<float>(intervals);
+  std::size_t bin = 0;
   for (int k = 0; k < intervals; ++k) {
     // Distances of points on a sphere have the density 2 d / D^2.
     const double share = (2.0 * k + 1) / (static_cast<double>(intervals) * intervals);
-    for (std::size_t a = 0; a < chance.size(); ++a) {
-      const double p = penalised[m.support.size()];
-      const double ratio = std::log(p / (share * chance[a]));
+    for (std::size_t a = 0; a < chance.size(); ++a, ++bin) {
+      const double ratio = std::log(penalised[bin] / (share * chance[a]));
       m.support.push_back(std::clamp(static_cast<float>(ratio), -kMostSupport, kMostSupport));
-      m.expected_support += p * m.support.back();
+      m.expected_support += penalised[bin] * m.support.back();
     }
+    m.support.push_back(0);
   }
+  m.support.insert(m.support.end(), chance.size(), -kMostSupport);
+  m.support.push_back(0);
 }
 
 } // namespace
@@ -90,7 +96,7 @@ sceneModel(const HistogramModel& model, double h_min, double scale,
   m.least_density = static_cast<float>(h_min / width);
   m.longest = static_cast<float>(delta_max * scale * delta_max * scale);
   m.angular_bins = static_cast<std::uint32_t>(model.resolution.angularBins());
-  fillSupport(penalised, chance, m);
+  fillSupport(penalised, chance, scale, m);
   return m;
 }
 

@@ -5,6 +5,8 @@
 #include "pcl_surflet/core/pair_counting.h"
 #include "pcl_surflet/recognition/model_database.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
@@ -33,8 +35,13 @@ struct SceneModel {
   double expected_log = 0;   ///< mean log-likelihood of the model's own features
   /** \brief ln of the penalised H(b) over the probability of the bin for surflets that have nothing
    * to do with each other: normals by chance, distances as on a sphere of diameter delta_max.
-   * Limited to 3 nats either way, so that no single pair decides. */
+   * Limited to 3 nats either way, so that no single pair decides.
+   *
+   * One row of angular_bins + 1 entries an interval of delta; the last entry is 0, for pairs
+   * without feature, and the last row is for pairs beyond delta_max. */
   std::vector<float> support;
+  float intervals_per_length = 0; ///< of delta in the scene's unit scale
+  float last_row = 0;             ///< number of intervals of delta
   double expected_support = 0; ///< mean of support over the model's own features
   double expected_cells = 0;   ///< cells of the whole object; 0 if unknown
   std::vector<float> border;   ///< squared borders of delta in the scene's unit scale
@@ -63,14 +70,20 @@ struct SceneModel {
     const std::uint32_t b = bin(angular_bin, delta_squared);
     return b == kBeyond ? least_density : density[b];
   }
-  /** \brief Support of a pair; a pair without feature has none, one beyond delta_max the least. */
+  /** \brief Support of a pair by its distance in the scene's unit scale.
+   * \param column angular bin, or angular_bins for a pair without feature */
   float
-  supportOfPair(std::uint32_t angular_bin, float delta_squared) const
+  supportOfPair(std::uint32_t column, float delta) const
   {
-    if (angular_bin == kNoPairFeature)
-      return 0;
-    const std::uint32_t b = bin(angular_bin, delta_squared);
-    return b == kBeyond ? -kMostSupport : support[b];
+    return support[supportIndex(column, delta)];
+  }
+  /** \brief Without branches, so that loops over pairs become vectors. */
+  std::uint32_t
+  supportIndex(std::uint32_t column, float delta) const
+  {
+    const float interval = std::min(delta * intervals_per_length, last_row);
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(interval)) * (angular_bins + 1) +
+           column;
   }
   /** \brief H_i(h_i(f)); 0 beyond delta_max. */
   float

@@ -10,23 +10,53 @@ namespace interpretation {
 namespace {
 
 constexpr unsigned kIterations = 10;
+/** \brief A segment of fewer of a model's cells, if their number is known, is nothing. */
+constexpr double kLeastCoverage = 0.3;
 /** \brief A weight rises from 0 to 1 over this interval of support, halved thrice. */
 constexpr float kFirstSlope = 1;
 constexpr unsigned kSlopeDoublings = 3;
 
-/** \brief Logarithmic ratios of all pairs as a square matrix; 0 where a pair has no feature. */
+/** \brief Columns and distances of what is in m.features, see Sample. */
 void
-fillRatios(const SceneModel& model, const Sample& sample, std::vector<float>& ratio)
+columnsOf(const PairFeatures& features, std::uint32_t angular_bins,
+          std::vector<std::uint32_t>& column, std::vector<float>& delta)
 {
-  const std::size_t n = sample.cells.size();
+  const std::size_t n = features.angular_bin.size();
+  column.resize(n);
+  delta.resize(n);
+  for (std::size_t i = 0; i < n; ++i) { // kNoPairFeature is the largest number
+    column[i] = std::min(features.angular_bin[i], angular_bins);
+    delta[i] = std::sqrt(features.delta_squared[i]);
+  }
+}
+
+/** \brief SceneModel::supportIndex() of many pairs. */
+void
+indicesOf(const SceneModel& model, const std::vector<std::uint32_t>& column,
+          const std::vector<float>& delta, std::vector<std::uint32_t>& index)
+{
+  index.resize(column.size());
+  for (std::size_t i = 0; i < column.size(); ++i)
+    index[i] = model.supportIndex(column[i], delta[i]);
+}
+
+/** \brief Support of all pairs of the sample as a square matrix. */
+void
+fillRatios(const SceneModel& model, std::size_t n, const std::vector<std::uint32_t>& index,
+           std::vector<float>& ratio)
+{
   ratio.resize(n * n);
   std::size_t pair = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    ratio[i * n + i] = 0;
     for (std::size_t j = 0; j < i; ++j, ++pair)
-      ratio[i * n + j] = ratio[j * n + i] = model.supportOfPair(
-          sample.features.angular_bin[pair], sample.features.delta_squared[pair]);
+      ratio[i * n + j] = model.support[index[pair]];
+    ratio[i * n + i] = 0;
   }
+  constexpr std::size_t kBlock = 16; // blocks stay in the cache
+  for (std::size_t b = 0; b < n; b += kBlock)
+    for (std::size_t i = b; i < n; ++i)
+      for (std::size_t j = b; j < std::min(i, b + kBlock); ++j)
+        ratio[j * n + i] = ratio[i * n + j];
 }
 
 /** \brief Support of every cell by all by their weights. \return sum of the weights */
@@ -75,32 +105,55 @@ settleWeights(const std::vector<float>& ratio, std::vector<float>& weight,
   }
 }
 
-/** \brief Intersection of the pairs within the core with the model's histogram. */
+/** \brief Intersection of the model's histogram with that of the counted indices. */
 double
-roughFit(const SceneModel& model, const Sample& sample, const std::vector<float>& weight,
-         std::vector<std::uint32_t>& counts)
+intersection(const SceneModel& model, const std::vector<std::uint32_t>& counts)
 {
-  counts.assign(model.h.size(), 0);
-  std::uint32_t total = 0;
-  std::size_t pair = 0;
-  for (std::size_t i = 0; i < weight.size(); ++i) {
-    if (weight[i] <= 0.5f) {
-      pair += i;
-      continue;
-    }
-    for (std::size_t j = 0; j < i; ++j, ++pair)
-      if (weight[j] > 0.5f && sample.features.angular_bin[pair] != kNoPairFeature) {
-        const auto b =
-            model.bin(sample.features.angular_bin[pair], sample.features.delta_squared[pair]);
-        ++total;
-        if (b != kBeyond)
-          ++counts[b];
-      }
-  }
+  const std::size_t bins = model.angular_bins, row = bins + 1;
+  std::uint64_t total = 0;
+  for (std::size_t begin = 0; begin < counts.size(); begin += row)
+    for (std::size_t a = 0; a < bins; ++a)
+      total += counts[begin + a];
+  if (total == 0)
+    return 0;
+  const float share = 1 / static_cast<float>(total);
   double sum = 0;
-  for (std::size_t b = 0; b < counts.size(); ++b)
-    sum += std::min<double>(model.h[b], counts[b] / std::max(1.0, static_cast<double>(total)));
+  for (std::size_t k = 0; k * bins < model.h.size(); ++k) {
+    const float* h = model.h.data() + k * bins;
+    const std::uint32_t* n = counts.data() + k * row;
+    for (std::size_t a = 0; a < bins; ++a)
+      sum += std::min(h[a], share * static_cast<float>(n[a]));
+  }
   return sum;
+}
+
+/** \brief Fit of the few pairs within the core. */
+double
+roughFit(const SceneModel& model, const std::vector<std::uint32_t>& index,
+         const std::vector<float>& weight, std::vector<std::uint32_t>& counts)
+{
+  counts.assign(model.support.size(), 0);
+  std::size_t pair = 0;
+  for (std::size_t i = 0; i < weight.size(); pair += i, ++i)
+    if (weight[i] > 0.5f)
+      for (std::size_t j = 0; j < i; ++j)
+        counts[index[pair + j]] += weight[j] > 0.5f ? 1 : 0;
+  return intersection(model, counts);
+}
+
+std::uint32_t
+angularBins(const SceneData& scene)
+{
+  return static_cast<std::uint32_t>(scene.models.resolution.angularBins());
+}
+
+/** \brief Indices of the pairs (m.first, m.second) in the model's support. */
+void
+indicesOfPairs(const SceneData& scene, const SceneModel& model, SupportMemory& m)
+{
+  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
+  columnsOf(m.features, angularBins(scene), m.column, m.delta);
+  indicesOf(model, m.column, m.delta, m.index);
 }
 
 /** \brief Weighs in what the weights have settled on. */
@@ -167,7 +220,8 @@ drawSample(const SceneData& scene, const LinearOctree& octree, const Centre& cen
       m.first.push_back(sample.cells[i]);
       m.second.push_back(sample.cells[j]);
     }
-  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, sample.features);
+  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
+  columnsOf(m.features, angularBins(scene), sample.column, sample.delta);
 }
 
 Segment
@@ -185,11 +239,14 @@ segment(const SceneData& scene, std::size_t model_index, const Centre& centre, d
                  z = scene.cells.z[c] - centre[2];
     m.weight[i] = x * x + y * y + z * z <= radius * radius ? 1.f : 0.f;
   }
-  fillRatios(model, sample, m.ratio);
+  indicesOf(model, sample.column, sample.delta, m.index);
+  fillRatios(model, n, m.index, m.ratio);
   settleWeights(m.ratio, m.weight, m.support);
   Segment s = summary(scene, sample, m.weight, m.support);
   s.model = model_index;
-  s.rough_fit = roughFit(model, sample, m.weight, m.counts);
+  // Most segments are hopeless without it.
+  if (s.core.size() > 2 && s.support > 0 && s.cells >= kLeastCoverage * model.expected_cells)
+    s.rough_fit = roughFit(model, m.index, m.weight, m.counts);
   return s;
 }
 
@@ -207,12 +264,12 @@ supportOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
       m.second.push_back(core[(start + k * n / probes) % n]);
     }
   }
-  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
+  indicesOfPairs(scene, model, m);
   out.clear();
   for (std::size_t i = 0; i < cells.size(); ++i) {
     float sum = 0;
     for (std::size_t k = i * probes; k < (i + 1) * probes; ++k)
-      sum += model.supportOfPair(m.features.angular_bin[k], m.features.delta_squared[k]);
+      sum += model.support[m.index[k]];
     if (sum > 0)
       out.push_back({cells[i], sum / static_cast<float>(probes)});
   }
@@ -230,21 +287,11 @@ fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells, std
     m.first.push_back(cells[static_cast<std::size_t>(i % n)]);
     m.second.push_back(cells[random.below(n)]);
   }
-  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
-  m.counts.assign(model.h.size(), 0);
-  std::uint64_t total = 0;
-  for (std::size_t i = 0; i < m.features.angular_bin.size(); ++i) {
-    if (m.features.angular_bin[i] == kNoPairFeature)
-      continue;
-    ++total;
-    const auto b = model.bin(m.features.angular_bin[i], m.features.delta_squared[i]);
-    if (b != kBeyond)
-      ++m.counts[b];
-  }
-  double sum = 0;
-  for (std::size_t b = 0; b < m.counts.size(); ++b)
-    sum += std::min<double>(model.h[b], m.counts[b] / std::max(1.0, static_cast<double>(total)));
-  return sum;
+  indicesOfPairs(scene, model, m);
+  m.counts.assign(model.support.size(), 0);
+  for (const auto i : m.index)
+    ++m.counts[i];
+  return intersection(model, m.counts);
 }
 
 } // namespace interpretation

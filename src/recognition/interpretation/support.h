@@ -15,15 +15,19 @@ using Centre = std::array<double, 3>;
 struct Sample {
   Indices cells;              ///< in the order of the octree
   std::size_t population = 0; ///< cells in the ball
-  PairFeatures features;      ///< of the pairs (1,0), (2,0), (2,1), (3,0) ...
+  /** \brief Of the pairs (1,0), (2,0), (2,1), (3,0) ...: angular bins, or the number of angular
+   * bins for a pair without feature, and distances in the scene's unit scale. */
+  std::vector<std::uint32_t> column;
+  std::vector<float> delta;
 };
 
 /** \brief Memory of a thread, used again and again. */
 struct SupportMemory {
   Sample sample;
   std::vector<PlaceRange> ranges;
-  std::vector<std::uint32_t> first, second, bins;
-  std::vector<float> ratio, weight, support;
+  std::vector<std::uint32_t> first, second, index;
+  std::vector<std::uint32_t> column;
+  std::vector<float> delta, ratio, weight, support;
   std::vector<std::uint32_t> counts;
   PairFeatures features;
 };
@@ -34,7 +38,9 @@ struct Segment {
   Centre centre{};      ///< of the supporting cells
   double cells = 0;     ///< estimated number of supporting cells in the ball
   double support = 0;   ///< their mean support, nats per pair
-  double rough_fit = 0; ///< intersection of their few pairs with the model's histogram
+  /** \brief Intersection of their few pairs with the model's histogram; 0 for hopeless segments:
+   * without support, or with too small a part of the model's cells. */
+  double rough_fit = 0;
   Indices core;         ///< the supporting cells of the sample
 
   /** \brief Nats won by explaining these cells. */

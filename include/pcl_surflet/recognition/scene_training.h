@@ -1,0 +1,28 @@
+/** \file
+ * Training of models for scene interpretation. */
+#pragma once
+
+#include "pcl_surflet/recognition/histogram_model_trainer.h"
+
+namespace pcl_surflet {
+
+/** \brief Trains a model of what an object looks like in a scene that is reduced to cells.
+ *
+ * A scene's mean surflets are not those of the surface: edges are cut, and walls thinner than a
+ * cell cancel. So the object is reduced too, in four random orientations. And as interpretation
+ * finds an object by the cells that support its model (interpretByExplanation()), the histogram is
+ * that of the cells that support each other; a wine glass loses its stem. HistogramModel::
+ * surface_area becomes the area of these cells, by which the share found of an object is judged.
+ *
+ * \param trainer resolution and role of the model; seven intervals in every dimension are best
+ * \param surflets of the complete surface, several to a cell
+ * \param leaf edge of the cells, as in the scenes to come; positive and finite
+ * \param seed of the orientations \param threads 0: all; does not change the result
+ * \throws TrainingError if fewer than 30 cells support the model: take smaller cells
+ * \throws std::invalid_argument for an unusable leaf */
+PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& trainer,
+                                              const std::string& label,
+                                              const SurfletSet& surflets, double leaf,
+                                              std::uint64_t seed = 1, unsigned threads = 0);
+
+} // namespace pcl_surflet
