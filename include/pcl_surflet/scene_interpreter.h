@@ -120,12 +120,11 @@ PCL_SURFLET_API SurfletSet backgroundCells(const SurfletSet& background,
 
 /** \brief How sure a detection is, in [0, 1].
  *
- * 1 - exp(-score) is the share by which the model's density exceeds what speaks against it (score:
- * nats per feature above all models, or above the best other one by the dissertation's steps). It
- * is multiplied by the histogram's intersection with the model's (fit, where the method has it) and
- * by n / (n + min_cluster) for n cells, since few cells prove little. 0.5 and more is a detection
- * that leaves little doubt; it is monotone in score, fit and cells, but no calibrated probability.
- */
+ * 1 / (1 + exp(-10 score)) is the posterior of its model against what speaks against it, were ten
+ * of its features independent evidence (score: nats per feature above all models, or above the best
+ * other one by the dissertation's steps). It is multiplied by the histogram's intersection with
+ * the model's (fit, where the method has it) and by n / (n + min_cluster) for n cells, since few
+ * cells prove little. Grows with score, fit and cells, but is no calibrated probability. */
 PCL_SURFLET_API double confidenceOf(const Detection& detection, std::size_t min_cluster);
 
 /** \brief \p cells relative to those that a surface of \p area occupies: 1.5 area / leaf^2, the

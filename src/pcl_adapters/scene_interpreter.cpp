@@ -162,10 +162,11 @@ detail::leafOf(double leaf, const ModelDatabase& database)
 double
 detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
 {
-  const double proof = 1 - std::exp(-std::max(detection.score, 0.0));
+  constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
+  const double posterior = 1 / (1 + std::exp(-kIndependent * detection.score));
   const double fit = detection.fit > 0 ? std::min(detection.fit, 1.0) : 1;
   const auto n = static_cast<double>(detection.cells.size());
-  return n > 0 ? proof * fit * n / (n + static_cast<double>(min_cluster)) : 0;
+  return n > 0 ? posterior * fit * n / (n + static_cast<double>(min_cluster)) : 0;
 }
 
 double

@@ -347,19 +347,21 @@ TEST(SceneInterpreter, CellsConfidenceAndCoverageOfADetection)
 TEST(SceneInterpreter, ConfidenceGrowsWithWhatSpeaksForIt)
 {
   Detection d;
-  d.score = 1;
+  d.score = 0.1;
   d.fit = 0.8;
   d.cells.resize(300);
   const double usual = detail::confidenceOf(d, 30);
-  EXPECT_NEAR(usual, 0.8 * (1 - std::exp(-1.0)) / 1.1, 1e-12);
+  EXPECT_NEAR(usual, 0.8 / (1 + std::exp(-1.0)) / 1.1, 1e-12);
   Detection better = d, larger = d, nearer = d;
-  better.score = 2;
+  better.score = 0.2;
   larger.cells.resize(3000);
   nearer.fit = 0.9;
   for (const auto& e : {better, larger, nearer})
     EXPECT_GT(detail::confidenceOf(e, 30), usual);
-  d.score = -1;
+  d.score = -1e9;
   EXPECT_EQ(detail::confidenceOf(d, 30), 0);
+  d.score = 1e9;
+  EXPECT_LE(detail::confidenceOf(d, 30), 1);
   EXPECT_EQ(detail::confidenceOf(Detection(), 30), 0);
 }
 
