@@ -1,5 +1,6 @@
 #include "scene_picture.h"
 
+#include <pcl/common/common.h>
 #include <pcl/visualization/pcl_visualizer.h>
 
 #include <vtkBillboardTextActor3D.h>
@@ -134,26 +135,56 @@ addCaption(const Caption& caption, const Names& names, double lift, vtkRenderer&
   renderer.AddActor(text);
 }
 
-/** \brief The eye far enough away to see everything, z up. */
+constexpr double kViewAngle = 30; ///< from the lower to the upper edge, degrees
+
+/** \brief Where the eye is and what it looks at. */
+struct Eye {
+  Eigen::Vector3d focus = Eigen::Vector3d::Zero();
+  double distance = 0;
+};
+
+/** \brief Moves and turns the eye so that the points just fill the picture: each step is exact for
+ * parallel rays, and a few suffice for those that meet. */
+Eye
+eyeThatSees(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const Eigen::Vector3d& to_eye,
+            double aspect)
+{
+  constexpr int kSteps = 8;
+  constexpr double kMargin = 1.14; // captions stand above things
+  const double slope = std::tan(kViewAngle / 2 * kRadian) / kMargin;
+  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(to_eye).normalized();
+  const Eigen::Vector3d up = to_eye.cross(right);
+  Eigen::Vector4f low, high;
+  pcl::getMinMax3D(cloud, low, high);
+  Eye eye;
+  eye.focus = ((low + high) / 2).head<3>().cast<double>();
+  eye.distance = std::max<double>((high - low).head<3>().norm(), 1e-6) / slope;
+  for (int step = 0; step < kSteps; ++step) {
+    Eigen::AlignedBox2d seen;
+    for (const auto& p : cloud) {
+      const Eigen::Vector3d d = p.getVector3fMap().cast<double>() - eye.focus;
+      const double depth = std::max(eye.distance - d.dot(to_eye), 0.01 * eye.distance);
+      seen.extend(Eigen::Vector2d(d.dot(right), d.dot(up)) / depth);
+    }
+    const Eigen::Vector2d size = seen.sizes() / 2, middle = seen.center() * eye.distance;
+    eye.focus += middle.x() * right + middle.y() * up;
+    eye.distance *= std::max({size.x() / aspect, size.y(), 1e-6 * slope}) / slope;
+  }
+  return eye;
+}
+
 void
 placeEye(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const PictureOptions& o,
          pcl::visualization::PCLVisualizer& viewer)
 {
-  constexpr double kViewAngle = 30;
-  Eigen::Vector3d low = cloud[0].getVector3fMap().cast<double>(), high = low;
-  for (const auto& p : cloud) {
-    low = low.cwiseMin(p.getVector3fMap().cast<double>());
-    high = high.cwiseMax(p.getVector3fMap().cast<double>());
-  }
-  const Eigen::Vector3d middle = (low + high) / 2;
-  const double radius = std::max((high - low).norm() / 2, 1e-6);
-  const double aspect = static_cast<double>(o.width) / o.height;
-  const double distance =
-      radius / std::sin(kViewAngle / 2 * kRadian) / std::min(aspect, 1.0) / o.zoom;
-  const Eigen::Vector3d eye = middle + distance * eyeDirection(o);
-  viewer.setCameraPosition(eye.x(), eye.y(), eye.z(), middle.x(), middle.y(), middle.z(), 0, 0, 1);
+  const Eigen::Vector3d to_eye = eyeDirection(o);
+  const Eye eye = eyeThatSees(cloud, to_eye, static_cast<double>(o.width) / o.height);
+  const double distance = eye.distance / o.zoom;
+  const Eigen::Vector3d at = eye.focus + distance * to_eye;
+  viewer.setCameraPosition(at.x(), at.y(), at.z(), eye.focus.x(), eye.focus.y(), eye.focus.z(), 0,
+                           0, 1);
   viewer.setCameraFieldOfView(kViewAngle * kRadian);
-  viewer.setCameraClipDistances(distance / 100, distance + 4 * radius);
+  viewer.setCameraClipDistances(distance / 100, 3 * distance);
 }
 
 void

@@ -140,7 +140,7 @@ PCL_SURFLET_API double coverageOf(std::size_t cells, double area, double leaf);
  * pcl_surflet::SceneInterpreter<pcl::PointNormal> interpreter;
  * interpreter.setInputCloud (cloud);
  * interpreter.setDatabase (pcl_surflet::loadDatabase ("objects.pcd"));
- * interpreter.setBackgroundPlanes ({{}});      // the objects stand on a table
+ * interpreter.setBackgroundPlanes ({pcl_surflet::BackgroundPlane ()}); // they stand on a table
  * for (const auto& object : interpreter.interpret ())
  *   std::cout << object.label << " " << object.indices.size () << " points\n";
  * \endcode
