@@ -26,7 +26,9 @@ enum class Method {
 /** \brief An object found in a cloud. Its \ref cells are indices of SceneInterpreter::getCells().
  */
 struct SceneDetection : Detection {
-  pcl::Indices indices; ///< its points in the input cloud, ascending
+  /** \brief Its points in the input cloud, ascending: those of its cells, and those of thin walls,
+   * whose cells have no normal, beside them. */
+  pcl::Indices indices;
   /** \brief In [0, 1]; see detail::confidenceOf(). Not a probability: it is not calibrated. */
   double confidence = 0;
   /** \brief Its cells, relative to those that the model's whole surface is expected to occupy; see

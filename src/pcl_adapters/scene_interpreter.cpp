@@ -3,6 +3,7 @@
 #include "pcl_surflet/impl/scene_interpreter.hpp"
 
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/linear_octree.h"
 
 #include <algorithm>
 #include <array>
@@ -22,20 +23,43 @@ constexpr double kMuchSmaller = 20;
 /** \brief From this share of pairs longer than every model on, the scene is called too large. */
 constexpr double kMuchTooLong = 0.999;
 
+/** \brief The cell of every point. Cells of thin walls, whose normals cancel, are none: their
+ * points go with the nearest cell, if there is one within a leaf. */
+std::vector<std::uint32_t>
+cellsOfPoints(const CellReduction& reduction, const SurfletSet& points, double leaf)
+{
+  std::vector<std::uint32_t> cell_of = reduction.cell_of;
+  if (reduction.cancelled_surflets == 0 || reduction.cells.empty())
+    return cell_of;
+  const SurfletSet& cells = reduction.cells;
+  LinearOctree octree;
+  octree.build({cells.x.data(), cells.y.data(), cells.z.data(), 1, cells.size()});
+  std::vector<PointIndex> nearest;
+  std::vector<float> squared;
+  for (std::size_t i = 0; i < cell_of.size(); ++i) {
+    if (cell_of[i] != CellReduction::no_cell)
+      continue;
+    octree.nearestSearch({points.x[i], points.y[i], points.z[i]}, 1, nearest, squared);
+    if (!nearest.empty() && squared[0] <= leaf * leaf)
+      cell_of[i] = static_cast<std::uint32_t>(nearest[0]);
+  }
+  return cell_of;
+}
+
 /** \brief The points of every detection, by their cells. */
 void
-findPoints(const CellReduction& reduction, const ConvertedSurflets& points,
+findPoints(const CellReduction& reduction, const ConvertedSurflets& points, double leaf,
            std::vector<SceneDetection>& detections)
 {
   std::vector<std::vector<std::uint32_t>> owners(reduction.cells.size());
   for (std::uint32_t k = 0; k < detections.size(); ++k)
     for (const auto cell : detections[k].cells)
       owners[cell].push_back(k);
+  const auto cell_of = cellsOfPoints(reduction, points.surflets, leaf);
   for (std::size_t i = 0; i < points.indices.size(); ++i) {
-    const auto cell = reduction.cell_of[i];
-    if (cell == CellReduction::no_cell)
+    if (cell_of[i] == CellReduction::no_cell)
       continue;
-    for (const auto k : owners[cell])
+    for (const auto k : owners[cell_of[i]])
       detections[k].indices.push_back(points.indices[i]);
   }
   for (auto& d : detections)
@@ -201,7 +225,7 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
     d.confidence = confidenceOf(d, request.parameters.steps.min_cluster);
     d.coverage = coverageOf(d.cells.size(), database[d.model].surface_area, leaf);
   }
-  findPoints(reduction, points, detections);
+  findPoints(reduction, points, leaf, detections);
   cells = std::move(reduction.cells);
   return detections;
 }

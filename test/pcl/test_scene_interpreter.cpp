@@ -148,6 +148,18 @@ TEST(SceneInterpreter, NamesObjectsAndTheirPoints)
   }
 }
 
+TEST(SceneInterpreter, ThinWallsGoWithTheirNeighbours)
+{
+  // Cells as wide as a wall is thick hold both its sides, and their normals cancel.
+  auto interpreter = ready();
+  interpreter.setLeafSize(0.012);
+  const auto found = interpreter.interpret();
+  std::size_t points = 0;
+  for (const auto& d : found)
+    points += d.label == "bottle" ? d.indices.size() : 0;
+  EXPECT_GT(double(points), 0.9 * double(scene().items[0].surflets));
+}
+
 TEST(SceneInterpreter, FiltersObjectPointsAndTheRest)
 {
   auto interpreter = ready(true);
