@@ -4,7 +4,6 @@
 #include <pcl/visualization/pcl_visualizer.h>
 
 #include <vtkBillboardTextActor3D.h>
-#include <vtkCamera.h>
 #include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
@@ -86,45 +85,58 @@ coloured(const LabelledScene& scene, const PictureOptions& o)
   return out;
 }
 
-/** \brief A thing's name and where it is written: above its middle. */
+/** \brief Right and up in the picture, to the eye. */
+struct Directions {
+  Eigen::Vector3d right, up, to_eye;
+
+  explicit Directions(const PictureOptions& o)
+      : right(Eigen::Vector3d::UnitZ().cross(eyeDirection(o)).normalized()),
+        up(eyeDirection(o).cross(right)), to_eye(eyeDirection(o))
+  {
+  }
+};
+
+/** \brief A thing's name and where it is written: above the middle of what one sees of it. */
 struct Caption {
   std::uint32_t label = 0;
   std::size_t points = 0;
-  double x = 0, y = 0, top = 0;
+  Eigen::Vector3d at = Eigen::Vector3d::Zero();
+  double top = 0; ///< along the picture's up
 };
 
 std::vector<Caption>
-captionsOf(const LabelledScene& scene)
+captionsOf(const LabelledScene& scene, const Eigen::Vector3d& up)
 {
   std::map<std::uint32_t, Caption> things;
   for (std::size_t i = 0; i < scene.points.size(); ++i) {
     const auto& p = scene.points[i];
     if (p.label == 0 || scene.things[i] == 0)
       continue;
+    const Eigen::Vector3d at = p.getVector3fMap().cast<double>();
     Caption& c = things[scene.things[i]];
-    c.top = c.points == 0 ? p.z : std::max<double>(c.top, p.z);
+    c.top = c.points == 0 ? at.dot(up) : std::max(c.top, at.dot(up));
     c.label = p.label;
-    c.x += p.x;
-    c.y += p.y;
+    c.at += at;
     ++c.points;
   }
   std::vector<Caption> captions;
   for (auto& [thing, c] : things) {
-    c.x /= static_cast<double>(c.points);
-    c.y /= static_cast<double>(c.points);
+    c.at /= static_cast<double>(c.points);
+    c.at += (c.top - c.at.dot(up)) * up;
     captions.push_back(c);
   }
   return captions;
 }
 
 void
-addCaption(const Caption& caption, const Names& names, double lift, vtkRenderer& renderer)
+addCaption(const Caption& caption, const Names& names, vtkRenderer& renderer)
 {
   const auto name = caption.label <= names.size() ? names[caption.label - 1]
                                                   : "object " + std::to_string(caption.label);
   const auto text = vtkSmartPointer<vtkBillboardTextActor3D>::New();
   text->SetInput(name.c_str());
-  text->SetPosition(caption.x, caption.y, caption.top + lift);
+  text->SetPosition(caption.at.x(), caption.at.y(), caption.at.z());
+  text->SetDisplayOffset(0, 10); // pixels
   auto* style = text->GetTextProperty();
   const Colour c = colourOf(caption.label);
   style->SetColor(0.6 * c[0] / 255, 0.6 * c[1] / 255, 0.6 * c[2] / 255);
@@ -146,14 +158,11 @@ struct Eye {
 /** \brief Moves and turns the eye so that the points just fill the picture: each step is exact for
  * parallel rays, and a few suffice for those that meet. */
 Eye
-eyeThatSees(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const Eigen::Vector3d& to_eye,
-            double aspect)
+eyeThatSees(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const Directions& view, double aspect)
 {
   constexpr int kSteps = 8;
   constexpr double kMargin = 1.14; // captions stand above things
   const double slope = std::tan(kViewAngle / 2 * kRadian) / kMargin;
-  const Eigen::Vector3d right = Eigen::Vector3d::UnitZ().cross(to_eye).normalized();
-  const Eigen::Vector3d up = to_eye.cross(right);
   Eigen::Vector4f low, high;
   pcl::getMinMax3D(cloud, low, high);
   Eye eye;
@@ -163,11 +172,11 @@ eyeThatSees(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const Eigen::Vector3
     Eigen::AlignedBox2d seen;
     for (const auto& p : cloud) {
       const Eigen::Vector3d d = p.getVector3fMap().cast<double>() - eye.focus;
-      const double depth = std::max(eye.distance - d.dot(to_eye), 0.01 * eye.distance);
-      seen.extend(Eigen::Vector2d(d.dot(right), d.dot(up)) / depth);
+      const double depth = std::max(eye.distance - d.dot(view.to_eye), 0.01 * eye.distance);
+      seen.extend(Eigen::Vector2d(d.dot(view.right), d.dot(view.up)) / depth);
     }
     const Eigen::Vector2d size = seen.sizes() / 2, middle = seen.center() * eye.distance;
-    eye.focus += middle.x() * right + middle.y() * up;
+    eye.focus += middle.x() * view.right + middle.y() * view.up;
     eye.distance *= std::max({size.x() / aspect, size.y(), 1e-6 * slope}) / slope;
   }
   return eye;
@@ -177,10 +186,10 @@ void
 placeEye(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const PictureOptions& o,
          pcl::visualization::PCLVisualizer& viewer)
 {
-  const Eigen::Vector3d to_eye = eyeDirection(o);
-  const Eye eye = eyeThatSees(cloud, to_eye, static_cast<double>(o.width) / o.height);
+  const Directions view(o);
+  const Eye eye = eyeThatSees(cloud, view, static_cast<double>(o.width) / o.height);
   const double distance = eye.distance / o.zoom;
-  const Eigen::Vector3d at = eye.focus + distance * to_eye;
+  const Eigen::Vector3d at = eye.focus + distance * view.to_eye;
   viewer.setCameraPosition(at.x(), at.y(), at.z(), eye.focus.x(), eye.focus.y(), eye.focus.z(), 0,
                            0, 1);
   viewer.setCameraFieldOfView(kViewAngle * kRadian);
@@ -199,9 +208,8 @@ fill(const LabelledScene& scene, const Names& names, const PictureOptions& o,
                                           "scene");
   placeEye(*cloud, o, viewer);
   auto* renderer = viewer.getRendererCollection()->GetFirstRenderer();
-  const auto captions = captionsOf(scene);
-  for (const auto& caption : captions)
-    addCaption(caption, names, 0.015 * renderer->GetActiveCamera()->GetDistance() / 3, *renderer);
+  for (const auto& caption : captionsOf(scene, Directions(o).up))
+    addCaption(caption, names, *renderer);
 }
 
 /** \brief VTK tells of its own deprecated functions. */
