@@ -299,6 +299,17 @@ TEST(SceneInterpreter, NothingThereIsNothingFound)
   EXPECT_NE(interpreter.getDiagnostics().reason.find("finite"), std::string::npos);
 }
 
+TEST(SceneInterpreter, ABackgroundThatIsIgnoredIsNoObject)
+{
+  auto interpreter = ready();
+  SceneOptions table;
+  table.density = 50000;
+  interpreter.setInputCloud(cloudOf(emptyBackground(table)));
+  EXPECT_TRUE(interpreter.interpret().empty());
+  EXPECT_NE(interpreter.getDiagnostics().reason.find("no model explains"), std::string::npos)
+      << interpreter.getDiagnostics().reason;
+}
+
 TEST(SceneInterpreter, OtherUnitsFindNothingAndSaySo)
 {
   for (const Method method : {Method::Explanation, Method::Dissertation})
