@@ -327,6 +327,19 @@ TEST(SceneInterpreter, OtherUnitsFindNothingAndSaySo)
     }
 }
 
+TEST(SceneInterpreter, AMiniatureIsNotNamed)
+{
+  // Cells as fine as the scene is small: the dissertation's steps alone would find objects.
+  auto interpreter = ready();
+  interpreter.setMethod(Method::Dissertation);
+  interpreter.setInputCloud(cloudOf(scene().surflets, 0.01f));
+  interpreter.setLeafSize(0.00008);
+  EXPECT_TRUE(interpreter.interpret().empty());
+  EXPECT_GT(interpreter.getDiagnostics().cells, 1000u);
+  EXPECT_EQ(interpreter.getDiagnostics().drawn, 0u) << "nor are the steps bothered with it";
+  EXPECT_NE(interpreter.getDiagnostics().reason.find("same unit"), std::string::npos);
+}
+
 TEST(SceneInterpreter, ThreadsDoNotChangeTheResult)
 {
   auto interpreter = ready();
@@ -430,6 +443,11 @@ TEST(SceneInterpreter, ProgressGrowsAndCancels)
     EXPECT_TRUE(interpreter.getDiagnostics().cancelled);
     EXPECT_EQ(interpreter.getDiagnostics().status, SceneStatus::Cancelled);
     EXPECT_EQ(calls, stop + 1) << "asked again after it said no";
+    for (const auto& m : interpreter.getDiagnostics().models) {
+      if (stop < 2) {
+        EXPECT_EQ(m.seeds, 0u) << "went on after it said no";
+      }
+    }
   }
 }
 
