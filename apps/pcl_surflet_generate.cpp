@@ -1,11 +1,10 @@
 // Makes labelled scenes of objects on a background, with the truth about them.
 
 #include "app_common.h"
+#include "labelled_pcd.h"
 #include "scene_items.h"
 
 #include "pcl_surflet/core/scene_generator.h"
-
-#include <cstring>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -15,36 +14,8 @@ namespace {
 constexpr const char* kProgram = "pcl_surflet_generate";
 
 struct Outputs {
-  std::string scene, poses, empty;
+  std::string scene, poses, empty, models;
 };
-
-/** \brief Binary PCD with x y z normal_x normal_y normal_z and, for scenes, label and instance. */
-std::string
-asPcd(const SurfletSet& set, const Scene* truth)
-{
-  const std::string n = std::to_string(set.size());
-  const bool labelled = truth != nullptr;
-  std::string text = std::string("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n") +
-                     "FIELDS x y z normal_x normal_y normal_z" +
-                     (labelled ? " label instance" : "") + "\nSIZE 4 4 4 4 4 4" +
-                     (labelled ? " 4 4" : "") + "\nTYPE F F F F F F" + (labelled ? " U U" : "") +
-                     "\nCOUNT 1 1 1 1 1 1" + (labelled ? " 1 1" : "") + "\nWIDTH " + n +
-                     "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
-  const auto append = [&text](const auto& value) {
-    char bytes[sizeof value];
-    std::memcpy(bytes, &value, sizeof value);
-    text.append(bytes, sizeof value);
-  };
-  text.reserve(text.size() + set.size() * (labelled ? 32 : 24));
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    append(set[i]); // six floats
-    if (labelled) {
-      append(truth->labels[i]);
-      append(truth->instances[i]);
-    }
-  }
-  return text;
-}
 
 std::string
 asPoses(const Scene& scene)
@@ -83,6 +54,8 @@ generate(int argc, char** argv)
   line.text("-poses", "POSES.csv", "pose (item to scene), centroid and points of what is there",
             out.poses);
   line.text("-empty", "EMPTY.pcd", "the same background without objects", out.empty);
+  line.text("-models", "DIR", "every ITEM by itself as DIR/NAME.off, upright, to train models from",
+            out.models);
   line.count("-present", "N", "items present, chosen at random, default all", present, 1, 1000000);
   line.text("-clutter", "ITEM,...", "things unknown to the database", clutter);
   line.count("-unknown", "N", "things present of the clutter, default all", unknown, 0, 1000000);
@@ -104,9 +77,12 @@ generate(int argc, char** argv)
                      (o.present > objects.size() ? "-present" : "-unknown") +
                      ": so many things were not given");
   const Scene scene = generateScene(objects, others, o);
-  writeFile(out.scene, asPcd(scene.surflets, &scene));
+  const PointLabels labels{scene.labels, scene.instances};
+  writeFile(out.scene, asPcd(scene.surflets, &labels));
   if (line.given("-poses"))
     writeFile(out.poses, asPoses(scene));
+  if (line.given("-models"))
+    saveMeshes(line.files(), out.models);
   if (line.given("-empty"))
     writeFile(out.empty, asPcd(emptyBackground(o), nullptr));
   note("wrote '" + out.scene + "': " + std::to_string(scene.surflets.size()) + " points, " +

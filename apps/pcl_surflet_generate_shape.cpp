@@ -1,6 +1,7 @@
 // Makes test shapes, so that examples need no data.
 
 #include "app_common.h"
+#include "scene_items.h"
 
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/shapes.h"
@@ -64,10 +65,7 @@ noisySample(const Shape& shape, const Options& o)
 TriangleMesh
 noisyMesh(const Shape& shape, const Options& o)
 {
-  // n vertices carry 2n triangles, of sqrt(3)/4 e^2 each if they are equilateral.
-  const double edge =
-      std::sqrt(areaOfShape(shape) * 2 / (std::sqrt(3.0) * static_cast<double>(o.points)));
-  TriangleMesh mesh = meshOfShape(shape, edge);
+  TriangleMesh mesh = meshOf(shape, static_cast<double>(o.points));
   if (o.noise == 0)
     return mesh;
   const auto normals = umbrellaNormals(mesh);

@@ -1,14 +1,18 @@
 // What is where in a scene?
 
 #include "app_common.h"
+#include "labelled_pcd.h"
+#include "picture.h"
 #include "scene_items.h"
 
-#include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/scene_interpreter.h"
 #include "pcl_surflet/surface_file.h"
 
+#include <cmath>
 #include <cstdio>
-#include <numeric>
+#include <filesystem>
+
+#include <unistd.h>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -17,10 +21,15 @@ namespace {
 
 constexpr const char* kProgram = "pcl_surflet_interpret";
 
+using Cloud = pcl::PointCloud<pcl::PointNormal>;
+using Interpreter = SceneInterpreter<pcl::PointNormal>;
+
 struct Options {
-  std::string database, empty, out;
-  detail::InterpreterRequest request;
-  std::uint64_t neighbours = 0, threads = 0, detections = 0;
+  std::string database, empty, out, objects_dir, picture;
+  Method method = Method::Explanation;
+  BackgroundTreatment background = BackgroundTreatment::Ignore;
+  double leaf = 0, distance = 0;
+  std::uint64_t planes = 0, neighbours = 0, threads = 0, detections = 0, seed = 1;
   bool csv = false, verbose = false;
 };
 
@@ -30,111 +39,208 @@ surfletsIn(const std::string& path, const Options& o)
   SurfaceFileOptions options;
   options.estimate_normals = static_cast<int>(o.neighbours);
   options.threads = static_cast<unsigned>(o.threads);
-  const SurfaceFile file = loadSurface(path, options);
+  SurfaceFile file = loadSurface(path, options);
   if (file.mesh)
     throw DataError(path + ": is a mesh; give a cloud with normals");
   if (file.rejected > 0)
     note(path + ": left out " + std::to_string(file.rejected) +
          " points that are not finite or have no usable normal");
-  return file.surflets;
+  return std::move(file.surflets);
 }
 
-/** \brief The points to look at: all, or those that are not in the empty scene. */
-ConvertedSurflets
-pointsIn(const SurfletSet& scene, const Options& o)
+Cloud::Ptr
+cloudOf(const SurfletSet& set)
 {
-  ConvertedSurflets points;
-  if (o.request.parameters.steps.background != BackgroundTreatment::Exclude) {
-    points.surflets = scene;
-    points.indices.resize(scene.size());
-    std::iota(points.indices.begin(), points.indices.end(), 0);
-    return points;
+  Cloud::Ptr cloud(new Cloud);
+  cloud->reserve(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    pcl::PointNormal p;
+    p.getVector3fMap() << set.x[i], set.y[i], set.z[i];
+    p.getNormalVector3fMap() << set.nx[i], set.ny[i], set.nz[i];
+    cloud->push_back(p);
   }
-  const auto empty = reduceToCells(surfletsIn(o.empty, o), o.request.leaf).cells;
-  const auto away = cellsAwayFrom(scene, empty, o.request.leaf);
-  points.surflets = scene.subset(away);
-  points.indices.assign(away.begin(), away.end());
-  return points;
+  return cloud;
 }
 
-/** \brief ASCII PCD of x y z label; 0 nothing, else index in the database + 1. */
-std::string
-labelled(const SurfletSet& scene, const std::vector<SceneDetection>& detections)
+/** \brief Instances are numbered in the order of the detections, as the objects' files are. */
+PointLabels
+labelsOf(std::size_t points, const std::vector<SceneDetection>& detections)
 {
-  std::vector<std::size_t> labels(scene.size(), 0);
-  for (const auto& d : detections)
-    for (const auto i : d.indices)
-      labels[static_cast<std::size_t>(i)] = d.model + 1;
-  const std::string n = std::to_string(scene.size());
-  std::string text = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z label\n"
-                     "SIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH " +
-                     n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA ascii\n";
-  for (std::size_t i = 0; i < scene.size(); ++i)
-    text.append(number(scene.x[i]) + " " + number(scene.y[i]) + " " + number(scene.z[i]) + " ")
-        .append(std::to_string(labels[i]) + "\n");
-  return text;
+  PointLabels labels{std::vector<std::uint32_t>(points), std::vector<std::uint32_t>(points)};
+  for (std::size_t k = 0; k < detections.size(); ++k)
+    for (const auto i : detections[k].indices) {
+      labels.labels[static_cast<std::size_t>(i)] =
+          static_cast<std::uint32_t>(detections[k].model + 1);
+      labels.instances[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(k + 1);
+    }
+  return labels;
+}
+
+/** \brief \p label as part of a file name: what could lead elsewhere becomes '_'. */
+std::string
+fileName(std::string label)
+{
+  for (char& c : label)
+    if (c == '/' || c == '\\' || c == ':' || c == ' ')
+      c = '_';
+  return label;
+}
+
+/** \brief One PCD an object: DIR/SCENE_1_cup.pcd. */
+void
+writeObjects(const std::string& path, const SurfletSet& scene,
+             const std::vector<SceneDetection>& detections, const std::string& directory)
+{
+  std::error_code failure;
+  std::filesystem::create_directories(directory, failure); // writeFile() will say it better
+  for (std::size_t k = 0; k < detections.size(); ++k) {
+    const auto& d = detections[k];
+    const std::vector<std::uint32_t> points(d.indices.begin(), d.indices.end());
+    const std::string name =
+        stemOf(path) + "_" + std::to_string(k + 1) + "_" + fileName(d.label) + ".pcd";
+    writeFile((std::filesystem::path(directory) / name).string(),
+              asPcd(scene.subset(points), nullptr));
+  }
+}
+
+/** \brief A file that is gone with the object. */
+struct TemporaryFile {
+  std::string path = (std::filesystem::temp_directory_path() /
+                      ("pcl_surflet_interpret_" + std::to_string(::getpid()) + ".pcd"))
+                         .string();
+  TemporaryFile() = default;
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile()
+  {
+    std::error_code failure;
+    std::filesystem::remove(path, failure);
+  }
+};
+
+void
+writeResults(const std::string& path, const SurfletSet& scene,
+             const std::vector<SceneDetection>& found, const Options& o)
+{
+  if (!o.objects_dir.empty())
+    writeObjects(path, scene, found, o.objects_dir);
+  if (o.out.empty() && o.picture.empty())
+    return;
+  const PointLabels labels = labelsOf(scene.size(), found);
+  const TemporaryFile temporary;
+  const std::string labelled = o.out.empty() ? temporary.path : o.out;
+  writeFile(labelled, asPcd(scene, &labels));
+  if (!o.picture.empty())
+    drawPicture(labelled, o.database, o.picture);
+}
+
+/** \brief Empty for what is unknown: NaN is no number of a table. */
+std::string
+numberOrNothing(double value)
+{
+  return std::isnan(value) ? "" : number(value);
 }
 
 void
-print(const std::string& path, const std::vector<SceneDetection>& detections, bool csv)
+printCsv(const std::string& path, const SceneDetection& d)
+{
+  std::string line =
+      csvField(path) + "," + csvField(d.label) + "," + std::to_string(d.indices.size());
+  for (const double v :
+       {d.centroid[0], d.centroid[1], d.centroid[2], d.score, d.fit, d.confidence, d.coverage})
+    line += "," + numberOrNothing(v);
+  std::puts(line.c_str());
+}
+
+void
+print(const std::string& path, const std::vector<SceneDetection>& detections,
+      const SceneDiagnostics& diagnostics, bool csv)
 {
   for (const auto& d : detections) {
+    if (csv) {
+      printCsv(path, d);
+      continue;
+    }
     const auto& c = d.centroid;
-    if (csv)
-      std::printf("%s,%s,%zu,%s,%s,%s,%s,%s\n", csvField(path).c_str(), csvField(d.label).c_str(),
-                  d.indices.size(), number(c[0]).c_str(), number(c[1]).c_str(),
-                  number(c[2]).c_str(), number(d.score).c_str(), number(d.fit).c_str());
-    else
-      std::printf("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, score %6.3f, fit %5.3f\n",
-                  path.c_str(), d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.score,
-                  d.fit);
+    std::printf("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, confidence %4.2f", path.c_str(),
+                d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.confidence);
+    std::printf(std::isnan(d.coverage) ? "\n" : ", coverage %4.2f\n", d.coverage);
   }
   if (detections.empty() && !csv)
-    std::printf("%s: nothing found\n", path.c_str());
+    std::printf("%s: nothing found: %s\n", path.c_str(), diagnostics.reason.c_str());
 }
 
 void
-printSteps(const InterpretationDiagnostics& d)
+printSteps(const SceneDiagnostics& d)
 {
-  std::fprintf(stderr, "drawn %llu, too long %llu, without feature %llu, background %llu\n",
-               static_cast<unsigned long long>(d.drawn),
-               static_cast<unsigned long long>(d.too_long),
-               static_cast<unsigned long long>(d.featureless),
-               static_cast<unsigned long long>(d.background));
+  using Count = unsigned long long;
+  std::fprintf(stderr,
+               "points %zu, background %zu (planes %zu), cells %zu of %g, extent %g, largest model "
+               "%g\npairs drawn %llu, too long %llu, without feature %llu, background %llu\n",
+               d.points, d.background_points, d.planes, d.cells, d.leaf, d.extent, d.largest_model,
+               Count{d.drawn}, Count{d.too_long}, Count{d.featureless}, Count{d.background});
+  std::fprintf(stderr,
+               "                 |  1 selected       |  2 seeds  3 cleared | 4 lone  clusters |"
+               " 5 distr. | 6 small relative | 7 merged  lost |\n"
+               "model            |   pairs  surflets |                    |                  |"
+               "          |                  |                | found\n");
   for (const auto& m : d.models)
     std::fprintf(stderr,
-                 "%-16s pairs %llu, surflets %zu; seeds %zu, cleared %zu, lone %zu; clusters %zu; "
-                 "died: distribution %zu, small %zu, relative %zu; merged %zu, lost %zu; found "
-                 "%zu\n",
-                 m.label.c_str(), static_cast<unsigned long long>(m.pairs), m.surflets, m.seeds,
-                 m.seeds_cleared, m.seeds_lone, m.clusters, m.died_distribution, m.died_small,
-                 m.died_relative, m.merged, m.lost, m.detections);
+                 "%-16.16s | %7llu %9zu | %8zu %9zu | %6zu %9zu | %8zu | %7zu %8zu | %8zu %5zu | "
+                 "%5zu\n",
+                 m.label.c_str(), Count{m.pairs}, m.surflets, m.seeds, m.seeds_cleared,
+                 m.seeds_lone, m.clusters, m.died_distribution, m.died_small, m.died_relative,
+                 m.merged, m.lost, m.detections);
+}
+
+/** \brief An interpreter as the options want it. */
+Interpreter
+interpreterFor(const ModelDatabase& database, const Options& o)
+{
+  Interpreter interpreter;
+  interpreter.setDatabase(database);
+  interpreter.setMethod(o.method);
+  interpreter.setBackgroundTreatment(o.background);
+  interpreter.setLeafSize(o.leaf);
+  interpreter.setSeed(o.seed);
+  interpreter.setNumberOfThreads(static_cast<unsigned>(o.threads));
+  interpreter.setMaximumDetections(o.detections);
+  ExclusionOptions exclusion;
+  exclusion.distance = o.distance;
+  interpreter.setExclusionOptions(exclusion);
+  if (o.planes > 0)
+    interpreter.setBackgroundPlanes(std::vector<BackgroundPlane>(o.planes));
+  if (!o.empty.empty())
+    interpreter.setBackgroundCloud(cloudOf(surfletsIn(o.empty, o)));
+  return interpreter;
 }
 
 void
-interpret(const std::string& path, const ModelDatabase& database, const Options& o)
+interpret(const std::string& path, Interpreter& interpreter, const Options& o)
 {
   const SurfletSet scene = surfletsIn(path, o);
-  InterpretationDiagnostics diagnostics;
-  const auto found = detail::interpretPoints(pointsIn(scene, o), database, o.request, diagnostics);
-  print(path, found, o.csv);
+  interpreter.setInputCloud(cloudOf(scene));
+  const auto found = interpreter.interpret();
+  const auto& diagnostics = interpreter.getDiagnostics();
+  if (diagnostics.status > SceneStatus::Cancelled)
+    throw DataError(diagnostics.reason);
+  print(path, found, diagnostics, o.csv);
   if (o.verbose)
     printSteps(diagnostics);
-  if (!o.out.empty())
-    writeFile(o.out, labelled(scene, found));
+  writeResults(path, scene, found, o);
 }
 
 /** \brief Goes on after a file that cannot be used. \return exit code */
 int
 interpretAll(const std::vector<std::string>& files, const Options& o)
 {
-  const ModelDatabase database = readDatabase(o.database);
+  Interpreter interpreter = interpreterFor(readDatabase(o.database), o);
   int code = kOk;
   if (o.csv)
-    std::puts("file,label,points,x,y,z,score,fit");
+    std::puts("file,label,points,x,y,z,score,fit,confidence,coverage");
   for (const auto& path : files)
     try {
-      interpret(path, database, o);
+      interpret(path, interpreter, o);
     }
     catch (const std::exception& error) {
       complain(about(path, error.what()));
@@ -146,47 +252,59 @@ interpretAll(const std::vector<std::string>& files, const Options& o)
 void
 addOptions(CommandLine& line, Options& o)
 {
-  auto& steps = o.request.parameters.steps;
   line.text("-database", "DB.pcd", "models, made by pcl_surflet_train (best with -bins 7,7,7,7)",
             o.database);
-  addChoice<Method>(line, "-method", "default explanation", o.request.method,
+  addChoice<Method>(line, "-method", "default explanation", o.method,
                     {{"explanation", Method::Explanation}, {"dissertation", Method::Dissertation}});
-  addChoice<BackgroundTreatment>(line, "-background", "default ignore; exclude needs -empty",
-                                 steps.background,
+  addChoice<BackgroundTreatment>(line, "-background", "default ignore", o.background,
                                  {{"ignore", BackgroundTreatment::Ignore},
                                   {"exclude", BackgroundTreatment::Exclude},
                                   {"model", BackgroundTreatment::Model}});
   line.text("-empty", "EMPTY.pcd", "exclude: the scene sensed without objects", o.empty);
-  line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model",
-            o.request.leaf, 1e-9, 1e9);
+  line.count("-planes", "N", "exclude: the N largest planes, 1 for a table, 2 for a shelf",
+             o.planes, 1, 100);
+  line.real("-distance", "D", "exclude: what is so near to the background, default a cell",
+            o.distance, 1e-9, 1e9);
+  line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
+            1e-9, 1e9);
   line.count("-max", "N", "detections, those of the most points, default all", o.detections, 1,
              1000000);
-  line.text("-out", "OUT.pcd", "labelled points: 0 none, else number in the database, from 1",
-            o.out);
+  line.text("-out", "OUT.pcd",
+            "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
+  line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
+            o.objects_dir);
+  line.text("-picture", "OUT.png", "the scene with its objects coloured and named; one scene only",
+            o.picture);
   line.flag("-csv", "prints CSV", o.csv);
   line.flag("-verbose", "prints what each step did to stderr", o.verbose);
   addNeighbours(line, o.neighbours);
-  addSeed(line, steps.seed);
+  addSeed(line, o.seed);
   addThreads(line, o.threads);
+}
+
+void
+checkBackground(const CommandLine& line, const Options& o)
+{
+  const bool excludes = o.background == BackgroundTreatment::Exclude;
+  for (const char* name : {"-empty", "-planes", "-distance"})
+    if (!excludes && line.given(name))
+      throw UsageError(std::string("option ") + name + " goes with -background exclude");
+  if (excludes && !line.given("-empty") && !line.given("-planes"))
+    throw UsageError("option -background exclude needs -empty or -planes");
 }
 
 int
 run(int argc, char** argv)
 {
   Options o;
-  CommandLine line(kProgram, "SCENE...", "Finds and names the objects of scenes.");
+  CommandLine line(kProgram, "SCENE...",
+                   "Finds and names the objects of scenes (PCD or PLY with normals, or see -k).");
   addOptions(line, o);
   if (!line.parse(argc, argv))
     return kOk;
   line.require("-database");
-  line.requireFiles(1, line.given("-out") ? 1 : 1000000);
-  const auto treatment = o.request.parameters.steps.background;
-  if ((treatment == BackgroundTreatment::Exclude) != line.given("-empty"))
-    throw UsageError("option -empty goes with -background exclude");
-  if (line.given("-empty"))
-    line.require("-leaf");
-  o.request.parameters.steps.threads = static_cast<unsigned>(o.threads);
-  o.request.max_detections = o.detections;
+  line.requireFiles(1, line.given("-out") || line.given("-picture") ? 1 : 1000000);
+  checkBackground(line, o);
   return interpretAll(line.files(), o);
 }
 

@@ -16,8 +16,16 @@ namespace apps {
 /** \brief \p text cut at every \p separator. */
 std::vector<std::string> parts(const std::string& text, char separator);
 
+/** \brief A mesh of the shape with roughly as many vertices. */
+TriangleMesh meshOf(const Shape& shape, double vertices);
+
 /** \brief Items given as SHAPE or FILE[:DIAMETER[:UP]]. \throws UsageError, DataError */
 std::vector<SceneItem> itemsOf(const std::vector<std::string>& texts);
+
+/** \brief Writes what itemsOf() makes of \p texts, as meshes in the scene's unit with z up:
+ * \p directory / NAME.off. The directory is made if need be. \throws UsageError, DataError,
+ * MeshFileError */
+void saveMeshes(const std::vector<std::string>& texts, const std::string& directory);
 
 /** \brief An option that takes one of some names. */
 template <class Value>

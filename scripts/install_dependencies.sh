@@ -7,6 +7,7 @@ packages=(
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
   libgtest-dev libbenchmark-dev libnanoflann-dev
   gnuplot-nox fonts-dejavu-core
+  xvfb libgl1-mesa-dri  # pictures where there is no display
 )
 
 missing=()

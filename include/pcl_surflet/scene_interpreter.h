@@ -7,8 +7,12 @@
 
 #include <pcl/filters/filter_indices.h>
 #include <pcl/point_types.h>
+#include <pcl/search/search.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -19,9 +23,61 @@ enum class Method {
   Dissertation ///< interpretByDissertation(), the seven steps as written
 };
 
-/** \brief An object found in a cloud. */
+/** \brief An object found in a cloud. Its \ref cells are indices of SceneInterpreter::getCells().
+ */
 struct SceneDetection : Detection {
-  pcl::Indices indices; ///< its points in the input cloud, ascending
+  /** \brief Its points in the input cloud, ascending: those of its cells, and those of thin walls,
+   * whose cells have no normal, beside them. */
+  pcl::Indices indices;
+  /** \brief In [0, 1]; see detail::confidenceOf(). Not a probability: it is not calibrated. */
+  double confidence = 0;
+  /** \brief Its cells, relative to those that the model's whole surface is expected to occupy; see
+   * detail::coverageOf(). NaN if the model's area is unknown: it was trained from points. */
+  double coverage = std::numeric_limits<double>::quiet_NaN();
+};
+
+/** \brief How an interpretation ended. */
+enum class SceneStatus {
+  NotYet,       ///< there was none
+  Found,        ///< there are detections
+  NothingFound, ///< no object; SceneDiagnostics::reason says why
+  Cancelled,    ///< the progress callback returned false
+  // Misuse:
+  NoInput,       ///< no input cloud
+  NoNormals,     ///< neither the points nor setInputNormals() have normals, or the background lacks
+  WrongInput,    ///< normals are not as many as points, or an index is outside the cloud
+  WrongDatabase, ///< no object, or no background model where it is to be modelled
+  WrongParameter, ///< a parameter is out of range
+};
+
+/** \brief What the last interpretation did, step by step, and why it ended. */
+struct SceneDiagnostics : InterpretationDiagnostics {
+  SceneStatus status = SceneStatus::NotYet;
+  std::string reason;                ///< status in words; empty if objects were found
+  std::size_t points = 0;            ///< input points that can be used
+  std::size_t rejected = 0;          ///< not finite or without usable normal
+  std::size_t background_points = 0; ///< left out by BackgroundTreatment::Exclude
+  std::size_t planes = 0;            ///< of them: planes found
+  std::size_t cells = 0;             ///< what was interpreted
+  double leaf = 0;                   ///< edge of a cell, in the cloud's unit
+  double extent = 0;                 ///< diagonal of the cells' bounding box
+  double largest_model = 0;          ///< delta_max of the largest object of the database
+};
+
+/** \brief What BackgroundTreatment::Exclude takes for background: points near it whose normals
+ * agree with it. The underside of an object on a table faces the other way, and stays. */
+struct ExclusionOptions {
+  double distance = 0;       ///< from the background, in the cloud's unit; 0: one leaf
+  double max_angle = 1.0472; ///< between the normals in radians, in (0, pi]; pi ignores normals
+};
+
+/** \brief A plane to be found by pcl::SACSegmentation and excluded. */
+struct BackgroundPlane {
+  /** \brief Direction of its normal (either sign, any length); all zero: any. */
+  std::array<double, 3> normal{};
+  double max_tilt = 0.26;        ///< from that direction, radians, in (0, pi / 2]
+  double min_share = 0.1;        ///< of the cells left; a plane of fewer is not removed, in (0, 1]
+  unsigned max_iterations = 500; ///< of RANSAC, >= 1
 };
 
 namespace detail {
@@ -32,14 +88,51 @@ struct InterpreterRequest {
   ExplanationParameters parameters;
   double leaf = 0;
   std::size_t max_detections = 0;
+  ExclusionOptions exclusion;
+  std::vector<BackgroundPlane> planes;
 };
 
-/** \brief Reduces, interprets and finds the points of every detection.
- * \throws DatabaseError, std::invalid_argument */
+/** \brief Edge of the cells: \p leaf, or if 0 a fiftieth of the largest object. \throws
+ * DatabaseError if there is no object \throws std::invalid_argument if it is not positive and
+ * finite */
+PCL_SURFLET_API double leafOf(double leaf, const ModelDatabase& database);
+
+/** \brief Reduces, interprets and finds the points of every detection. Sets what it does in
+ * \p diagnostics. \param cells the reduced scene \throws DatabaseError, std::invalid_argument */
 PCL_SURFLET_API std::vector<SceneDetection> interpretPoints(const ConvertedSurflets& points,
                                                             const ModelDatabase& database,
                                                             const InterpreterRequest& request,
-                                                            InterpretationDiagnostics& diagnostics);
+                                                            SceneDiagnostics& diagnostics,
+                                                            SurfletSet& cells);
+
+/** \brief Removes the points of the planes, one after the other. \return how many were found
+ * \throws std::invalid_argument if an option is out of range */
+PCL_SURFLET_API std::size_t removePlanes(const std::vector<BackgroundPlane>& planes,
+                                         const ExclusionOptions& options,
+                                         ConvertedSurflets& points);
+
+/** \brief Removes the points that \p is_background calls so. */
+PCL_SURFLET_API void removePoints(const std::function<bool(const Surflet&)>& is_background,
+                                  ConvertedSurflets& points);
+
+/** \brief The background as cells of half the distance: even, and dense enough for it.
+ * \throws std::invalid_argument if an option is out of range */
+PCL_SURFLET_API SurfletSet backgroundCells(const SurfletSet& background,
+                                           const ExclusionOptions& options);
+
+/** \brief How sure a detection is, in [0, 1].
+ *
+ * 1 / (1 + exp(-10 score)) is the posterior of its model against what speaks against it, were ten
+ * of its features independent evidence (score: nats per feature above all models, or above the best
+ * other one by the dissertation's steps). It is multiplied by the histogram's intersection with
+ * the model's (fit, where the method has it) and by n / (n + min_cluster) for n cells, since few
+ * cells prove little. Grows with score, fit and cells, but is no calibrated probability. */
+PCL_SURFLET_API double confidenceOf(const Detection& detection, std::size_t min_cluster);
+
+/** \brief \p cells relative to those that a surface of \p area occupies: 1.5 area / leaf^2, the
+ * mean over all directions of a plane. Thin walls share cells, so that vessels reach about 0.8;
+ * above 1 the detection holds more than the object. NaN if the area is not positive. */
+PCL_SURFLET_API double coverageOf(std::size_t cells, double area, double leaf);
 
 } // namespace detail
 
@@ -49,22 +142,25 @@ PCL_SURFLET_API std::vector<SceneDetection> interpretPoints(const ConvertedSurfl
  * pcl_surflet::SceneInterpreter<pcl::PointNormal> interpreter;
  * interpreter.setInputCloud (cloud);
  * interpreter.setDatabase (pcl_surflet::loadDatabase ("objects.pcd"));
+ * interpreter.setBackgroundPlanes ({pcl_surflet::BackgroundPlane ()}); // they stand on a table
  * for (const auto& object : interpreter.interpret ())
  *   std::cout << object.label << " " << object.indices.size () << " points\n";
  * \endcode
  *
- * As a filter it keeps the points that belong to an object, or with setNegative() the others.
- * Points that are not finite or have no usable normal belong to neither: they are always removed.
- * The database should have seven intervals in every dimension and the unit of the cloud.
+ * As a filter it keeps the points that belong to an object, or with setNegative() the others, the
+ * background among them. Points that are not finite or have no usable normal belong to neither:
+ * they are always removed. The database should have seven intervals in every dimension and the
+ * unit of the cloud. Normals are not estimated here: which way is out only the user knows.
  *
- * Misuse (no normals, no object in the database) is reported with PCL_ERROR and gives no detection.
- * One seed gives one result for any number of threads. */
+ * Misuse (no normals, no object in the database) is reported with PCL_ERROR, gives no detection,
+ * and can be read from getDiagnostics(). One seed gives one result for any number of threads. */
 template <typename PointT, typename PointNT = PointT>
 class SceneInterpreter : public pcl::FilterIndices<PointT> {
 public:
   using Ptr = pcl::shared_ptr<SceneInterpreter<PointT, PointNT>>;
   using ConstPtr = pcl::shared_ptr<const SceneInterpreter<PointT, PointNT>>;
   using Normals = pcl::PointCloud<PointNT>;
+  using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
   explicit SceneInterpreter(bool extract_removed_indices = false)
       : pcl::FilterIndices<PointT>(extract_removed_indices)
@@ -88,20 +184,61 @@ public:
   {
     request_.method = method;
   }
-  /** \brief Default Ignore. Exclude is for clouds without background (setIndices() selects). */
+
+  /** \name Background
+   * Default Ignore. Exclude looks at what is left of the input without the background cloud and the
+   * planes; without either the user has removed the background, say with setIndices(). */
+  ///@{
   void
   setBackgroundTreatment(BackgroundTreatment treatment)
   {
     request_.parameters.steps.background = treatment;
   }
+  /** \brief The scene sensed before there were objects in it; turns to Exclude. Null forgets it.
+   * \param normals as in setInputNormals() */
+  void
+  setBackgroundCloud(const typename pcl::PointCloud<PointT>::ConstPtr& cloud,
+                     const typename Normals::ConstPtr& normals = nullptr)
+  {
+    background_ = cloud;
+    background_normals_ = normals;
+    setBackgroundTreatment(BackgroundTreatment::Exclude);
+  }
+  /** \brief Planes to be found, one after the other; turns to Exclude. One for a table, two for the
+   * corner of a shelf. A plane has no end: what lies in it elsewhere goes as well. */
+  void
+  setBackgroundPlanes(const std::vector<BackgroundPlane>& planes)
+  {
+    request_.planes = planes;
+    setBackgroundTreatment(BackgroundTreatment::Exclude);
+  }
+  void
+  setExclusionOptions(const ExclusionOptions& options)
+  {
+    request_.exclusion = options;
+  }
+  /** \brief Searches the background cloud, whose neighbours are what is excluded: nothing else
+   * here needs neighbours in a cloud. Default: OctreeRegionSearch. Its input cloud is replaced. */
+  void
+  setSearchMethod(const SearchPtr& search)
+  {
+    search_ = search;
+  }
+  SearchPtr
+  getSearchMethod() const
+  {
+    return search_;
+  }
+  ///@}
+
   /** \brief Edge of the cells in the cloud's unit; 0 (default): a fiftieth of the largest model. */
   void
   setLeafSize(double leaf)
   {
     request_.leaf = leaf;
   }
-  /** \brief All other constants; replaces background, seed and threads too. Method::Dissertation
-   * takes its steps. */
+  /** \brief All other constants; replaces background, seed, threads and progress too.
+   * Method::Dissertation takes its steps. */
   void
   setParameters(const ExplanationParameters& parameters)
   {
@@ -129,19 +266,41 @@ public:
   {
     request_.max_detections = detections;
   }
+  /** \brief Told the share done, in [0, 1]; returns false to cancel. See
+   * DissertationParameters::progress. */
+  void
+  setProgressCallback(const std::function<bool(double)>& progress)
+  {
+    request_.parameters.steps.progress = progress;
+  }
 
-  /** \brief Finds the objects. \return them, or nothing after an error */
+  /** \brief Finds the objects. \return them, or nothing after an error or when cancelled */
   std::vector<SceneDetection> interpret();
 
   /** \brief What the last interpretation did. */
-  const InterpretationDiagnostics&
+  const SceneDiagnostics&
   getDiagnostics() const
   {
     return diagnostics_;
   }
+  /** \brief The mean surflets that the last interpretation looked at. */
+  const SurfletSet&
+  getCells() const
+  {
+    return cells_;
+  }
 
-  /** \brief Interprets, and labels every point: 0 for none, else index in the database + 1. */
+  /** \brief Interprets, and labels every point: 0 for none, else index in the database + 1.
+   *
+   * The output has the size and order of the input cloud. PointXYZLNormal takes the normals of the
+   * input (NaN where interpret() had none to work with). */
   void getLabeledCloud(pcl::PointCloud<pcl::PointXYZL>& output);
+  void getLabeledCloud(pcl::PointCloud<pcl::PointXYZLNormal>& output);
+
+  /** \brief The same for detections that one has already. */
+  template <typename PointOutT>
+  void labelCloud(const std::vector<SceneDetection>& detections,
+                  pcl::PointCloud<PointOutT>& output) const;
 
 protected:
   void applyFilter(pcl::Indices& indices) override;
@@ -150,11 +309,22 @@ private:
   /** \brief Interprets within initCompute(). \return false after an error; \p points are those that
    * could be used */
   bool interpretInput(ConvertedSurflets& points, std::vector<SceneDetection>& detections);
+  /** \brief Converts the input. \return false after an error */
+  bool convertPoints(ConvertedSurflets& points);
+  /** \brief BackgroundTreatment::Exclude. */
+  ConvertedSurflets withoutBackground(ConvertedSurflets points);
+  void removeBackgroundCloud(const ExclusionOptions& options, ConvertedSurflets& points);
+  /** \brief Keeps and prints what went wrong. \return false */
+  bool fail(SceneStatus status, const std::string& reason);
 
   typename Normals::ConstPtr normals_;
+  typename pcl::PointCloud<PointT>::ConstPtr background_;
+  typename Normals::ConstPtr background_normals_;
+  SearchPtr search_;
   ModelDatabase database_;
   detail::InterpreterRequest request_;
-  InterpretationDiagnostics diagnostics_;
+  SceneDiagnostics diagnostics_;
+  SurfletSet cells_;
 };
 
 } // namespace pcl_surflet

@@ -3,8 +3,12 @@
 #include "pcl_surflet/impl/scene_interpreter.hpp"
 
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/linear_octree.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
 
 namespace pcl_surflet {
 namespace {
@@ -12,62 +16,217 @@ namespace {
 /** \brief Cells per diameter of the largest object, where the user does not say. */
 constexpr double kCellsPerDiameter = 50;
 
+/** \brief A scene smaller than the smallest model by this factor is not interpreted: the steps have
+ * no absolute measure and would name it all the same. */
+constexpr double kMuchSmaller = 20;
+
+/** \brief From this share of pairs longer than every model on, the scene is called too large. */
+constexpr double kMuchTooLong = 0.999;
+
+/** \brief The cell of every point. Cells of thin walls, whose normals cancel, are none: their
+ * points go with the nearest cell, if there is one within a leaf. */
+std::vector<std::uint32_t>
+cellsOfPoints(const CellReduction& reduction, const SurfletSet& points, double leaf)
+{
+  std::vector<std::uint32_t> cell_of = reduction.cell_of;
+  if (reduction.cancelled_surflets == 0 || reduction.cells.empty())
+    return cell_of;
+  const SurfletSet& cells = reduction.cells;
+  LinearOctree octree;
+  octree.build({cells.x.data(), cells.y.data(), cells.z.data(), 1, cells.size()});
+  std::vector<PointIndex> nearest;
+  std::vector<float> squared;
+  for (std::size_t i = 0; i < cell_of.size(); ++i) {
+    if (cell_of[i] != CellReduction::no_cell)
+      continue;
+    octree.nearestSearch({points.x[i], points.y[i], points.z[i]}, 1, nearest, squared);
+    if (!nearest.empty() && squared[0] <= leaf * leaf)
+      cell_of[i] = static_cast<std::uint32_t>(nearest[0]);
+  }
+  return cell_of;
+}
+
 /** \brief The points of every detection, by their cells. */
 void
-findPoints(const CellReduction& reduction, const ConvertedSurflets& points,
+findPoints(const CellReduction& reduction, const ConvertedSurflets& points, double leaf,
            std::vector<SceneDetection>& detections)
 {
   std::vector<std::vector<std::uint32_t>> owners(reduction.cells.size());
   for (std::uint32_t k = 0; k < detections.size(); ++k)
     for (const auto cell : detections[k].cells)
       owners[cell].push_back(k);
+  const auto cell_of = cellsOfPoints(reduction, points.surflets, leaf);
   for (std::size_t i = 0; i < points.indices.size(); ++i) {
-    const auto cell = reduction.cell_of[i];
-    if (cell == CellReduction::no_cell)
+    if (cell_of[i] == CellReduction::no_cell)
       continue;
-    for (const auto k : owners[cell])
+    for (const auto k : owners[cell_of[i]])
       detections[k].indices.push_back(points.indices[i]);
   }
   for (auto& d : detections)
     std::sort(d.indices.begin(), d.indices.end());
 }
 
-double
-largestObject(const ModelDatabase& database)
+struct SizeRange {
+  double smallest = 0, largest = 0; ///< delta_max; 0 without an object
+};
+
+SizeRange
+objectSizes(const ModelDatabase& database)
 {
-  double largest = 0;
-  for (std::size_t i = 0; i < database.size(); ++i)
-    if (database[i].role == ModelRole::Object)
-      largest = std::max(largest, database[i].delta_max);
-  return largest;
+  SizeRange sizes;
+  for (std::size_t i = 0; i < database.size(); ++i) {
+    const double size = database[i].delta_max;
+    if (database[i].role != ModelRole::Object)
+      continue;
+    sizes.smallest = sizes.largest == 0 ? size : std::min(sizes.smallest, size);
+    sizes.largest = std::max(sizes.largest, size);
+  }
+  return sizes;
+}
+
+/** \brief Diagonal of the bounding box. */
+double
+diagonal(const SurfletSet& set)
+{
+  if (set.empty())
+    return 0;
+  double sum = 0;
+  for (const auto* axis : {&set.x, &set.y, &set.z}) {
+    const auto [low, high] = std::minmax_element(axis->begin(), axis->end());
+    const double edge = static_cast<double>(*high) - static_cast<double>(*low);
+    sum += edge * edge;
+  }
+  return std::sqrt(sum);
+}
+
+std::string
+text(const char* format, double a, double b)
+{
+  std::array<char, 256> line{};
+  std::snprintf(line.data(), line.size(), format, a, b);
+  return line.data();
+}
+
+bool
+muchTooSmall(const SceneDiagnostics& d, const SizeRange& sizes)
+{
+  return d.extent * kMuchSmaller < sizes.smallest;
+}
+
+/** \brief Why there is no detection, as far as the counts tell. */
+std::string
+whyNothing(const SceneDiagnostics& d, const SizeRange& sizes)
+{
+  if (d.points == 0)
+    return "no point is finite and has a usable normal";
+  if (d.points == d.background_points)
+    return "all points are background";
+  if (d.cells == 0)
+    return "the normals cancel in every cell: set a smaller leaf";
+  if (muchTooSmall(d, sizes))
+    return text("the scene measures %g, the smallest model %g: are both in the same unit?",
+                d.extent, sizes.smallest);
+  if (d.drawn > 0 && static_cast<double>(d.too_long) >= kMuchTooLong * static_cast<double>(d.drawn))
+    return text("nearly all pairs of the scene, which measures %g, are longer than the largest "
+                "model, %g: are both in the same unit, is it sensed densely?",
+                d.extent, sizes.largest);
+  return "no model explains a part of the scene well enough: the counts of the models tell where "
+         "they failed";
+}
+
+void
+keepLargest(std::size_t most, std::vector<Detection>& found)
+{
+  if (most == 0 || found.size() <= most)
+    return;
+  std::stable_sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
+    return a.cells.size() > b.cells.size();
+  });
+  found.resize(most);
+}
+
+void
+describe(const SceneInterpretation& result, const SizeRange& sizes, SceneDiagnostics& diagnostics)
+{
+  static_cast<InterpretationDiagnostics&>(diagnostics) = result.diagnostics;
+  if (diagnostics.cancelled) {
+    diagnostics.status = SceneStatus::Cancelled;
+    diagnostics.reason = "cancelled by the progress callback";
+  }
+  else if (result.detections.empty()) {
+    diagnostics.status = SceneStatus::NothingFound;
+    diagnostics.reason = whyNothing(diagnostics, sizes);
+  }
+  else
+    diagnostics.status = SceneStatus::Found;
+}
+
+SceneInterpretation
+interpretCells(const SurfletSet& cells, const ModelDatabase& database,
+               const detail::InterpreterRequest& request)
+{
+  return request.method == Method::Dissertation
+             ? interpretByDissertation(cells, database, request.parameters.steps)
+             : interpretByExplanation(cells, database, request.parameters);
 }
 
 } // namespace
 
-std::vector<SceneDetection>
-detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& database,
-                        const InterpreterRequest& request, InterpretationDiagnostics& diagnostics)
+double
+detail::leafOf(double leaf, const ModelDatabase& database)
 {
-  const double largest = largestObject(database);
+  const double largest = objectSizes(database).largest;
   if (!(largest > 0))
     throw DatabaseError("the database has no object to find; call setDatabase()");
-  const double leaf = request.leaf > 0 ? request.leaf : largest / kCellsPerDiameter;
-  const CellReduction reduction = reduceToCells(points.surflets, leaf);
-  auto result = request.method == Method::Dissertation
-                    ? interpretByDissertation(reduction.cells, database, request.parameters.steps)
-                    : interpretByExplanation(reduction.cells, database, request.parameters);
-  diagnostics = std::move(result.diagnostics);
-  auto& found = result.detections;
-  if (request.max_detections > 0 && found.size() > request.max_detections) {
-    std::stable_sort(found.begin(), found.end(), [](const Detection& a, const Detection& b) {
-      return a.cells.size() > b.cells.size();
-    });
-    found.resize(request.max_detections);
+  if (!(leaf >= 0) || !std::isfinite(leaf))
+    throw std::invalid_argument("pcl_surflet: the leaf size must be positive and finite, or 0");
+  return leaf > 0 ? leaf : largest / kCellsPerDiameter;
+}
+
+double
+detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
+{
+  constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
+  const double posterior = 1 / (1 + std::exp(-kIndependent * detection.score));
+  const double fit = detection.fit > 0 ? std::min(detection.fit, 1.0) : 1;
+  const auto n = static_cast<double>(detection.cells.size());
+  return n > 0 ? posterior * fit * n / (n + static_cast<double>(min_cluster)) : 0;
+}
+
+double
+detail::coverageOf(std::size_t cells, double area, double leaf)
+{
+  constexpr double kCellsPerLeafSquare = 1.5; // mean of |nx| + |ny| + |nz| over all directions
+  return area > 0 ? static_cast<double>(cells) * leaf * leaf / (kCellsPerLeafSquare * area)
+                  : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::vector<SceneDetection>
+detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& database,
+                        const InterpreterRequest& request, SceneDiagnostics& diagnostics,
+                        SurfletSet& cells)
+{
+  const double leaf = leafOf(request.leaf, database);
+  const SizeRange sizes = objectSizes(database);
+  CellReduction reduction = reduceToCells(points.surflets, leaf);
+  diagnostics.leaf = leaf;
+  diagnostics.cells = reduction.cells.size();
+  diagnostics.extent = diagonal(reduction.cells);
+  diagnostics.largest_model = sizes.largest;
+  // Also an absurd scene is interpreted, as none: parameters and database are checked there.
+  auto result = interpretCells(muchTooSmall(diagnostics, sizes) ? SurfletSet() : reduction.cells,
+                               database, request);
+  describe(result, sizes, diagnostics);
+  keepLargest(request.max_detections, result.detections);
+  std::vector<SceneDetection> detections(result.detections.size());
+  for (std::size_t k = 0; k < detections.size(); ++k) {
+    auto& d = detections[k];
+    static_cast<Detection&>(d) = std::move(result.detections[k]);
+    d.confidence = confidenceOf(d, request.parameters.steps.min_cluster);
+    d.coverage = coverageOf(d.cells.size(), database[d.model].surface_area, leaf);
   }
-  std::vector<SceneDetection> detections(found.size());
-  for (std::size_t k = 0; k < found.size(); ++k)
-    static_cast<Detection&>(detections[k]) = std::move(found[k]);
-  findPoints(reduction, points, detections);
+  findPoints(reduction, points, leaf, detections);
+  cells = std::move(reduction.cells);
   return detections;
 }
 

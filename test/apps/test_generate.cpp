@@ -1,6 +1,8 @@
 // Scenes made by pcl_surflet_generate.
 #include "app_runner.h"
 
+#include <algorithm>
+
 using namespace pcl_surflet::test;
 
 namespace {
@@ -59,6 +61,27 @@ TEST_F(Generate, MeshesAreScaledAndTurnedUp)
     EXPECT_GT(height, 0.1);
     EXPECT_EQ(height < 0.62, up == "z") << up << " " << height;
   }
+}
+
+TEST_F(Generate, ItemsBecomeMeshesToTrainFrom)
+{
+  ASSERT_EQ(run("generate_shape", {"cone", path("thing.off")}).code, 0);
+  ASSERT_EQ(
+      run("generate", {"-out", path("s.pcd"), "-models", path("m"), "-density", "5000",
+                       "-background", "none", "-size", "9", "cup", path("thing.off") + ":2:x"})
+          .code,
+      0);
+  ASSERT_TRUE(
+      ended(run("train", {"-database", path("db.pcd"), path("m/cup.off"), path("m/thing.off")}), 0,
+            {"added 'cup'", "added 'thing'"}));
+  const auto table = parseCsv(run("info", {"-csv", path("db.pcd")}).out);
+  ASSERT_EQ(table.size(), 3u);
+  const auto column = std::find(table[0].begin(), table[0].end(), "delta_max") - table[0].begin();
+  ASSERT_LT(std::size_t(column), table[0].size());
+  EXPECT_NEAR(std::stod(table[2][std::size_t(column)]), 2, 0.02) << "in the scene's unit";
+  EXPECT_TRUE(ended(
+      run("generate", {"-out", path("s.pcd"), "-models", path("s.pcd"), "-density", "5000", "cup"}),
+      2, {"s.pcd"}));
 }
 
 TEST_F(Generate, SeedsDecide)

@@ -2,6 +2,7 @@
 #include "app_runner.h"
 
 #include <cmath>
+#include <cstdlib>
 
 using namespace pcl_surflet::test;
 
@@ -44,7 +45,82 @@ TEST_F(Interpret, FindsWhatWasPutThere)
       EXPECT_NEAR(std::stod(table[row][3 + axis]), std::stod(item[20 + axis]), 0.02);
   }
   EXPECT_NE(table[1][1], table[2][1]);
-  EXPECT_NE(readFile(path("labelled.pcd")).find("FIELDS x y z label"), std::string::npos);
+  EXPECT_NE(
+      readFile(path("labelled.pcd")).find("FIELDS x y z normal_x normal_y normal_z label instance"),
+      std::string::npos);
+}
+
+TEST_F(Interpret, FindsTheTableItselfAndWritesTheObjects)
+{
+  const AppRun r =
+      run("interpret", {"-database", path("db.pcd"), "-background", "exclude", "-planes", "1",
+                        "-leaf", "0.008", "-csv", "-objects_dir", path("new/dir"), path("s.pcd")});
+  ASSERT_TRUE(ended(r, 0, {}));
+  const auto table = parseCsv(r.out);
+  ASSERT_EQ(table.size(), 3u);
+  EXPECT_EQ(table[0].size(), 10u);
+  for (std::size_t row = 1; row < 3; ++row) {
+    EXPECT_GT(std::stod(table[row][8]), 0) << "confidence";
+    EXPECT_EQ(table[row][9], "") << "coverage of models trained from points is unknown";
+    const std::string object =
+        readFile(path("new/dir/s_" + std::to_string(row) + "_" + table[row][1] + ".pcd"));
+    EXPECT_NE(object.find("\nPOINTS " + table[row][2] + "\n"), std::string::npos);
+  }
+}
+
+TEST_F(Interpret, SaysWhyNothingIsFound)
+{
+  const AppRun r = run("interpret", {"-database", path("db.pcd"), "-background", "exclude",
+                                     "-empty", path("e.pcd"), "-leaf", "0.008", path("e.pcd")});
+  ASSERT_TRUE(ended(r, 0, {}));
+  EXPECT_NE(r.out.find("nothing found: all points are background"), std::string::npos) << r.out;
+}
+
+// VTK and Mesa leak, and reserve what sanitisers count.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST_F(Interpret, DrawsAPictureWithoutADisplay)
+{
+  const std::string before = getenv("DISPLAY") != nullptr ? getenv("DISPLAY") : "";
+  unsetenv("DISPLAY");
+  const AppRun r =
+      run("interpret", {"-database", path("db.pcd"), "-background", "exclude", "-planes", "1",
+                        "-leaf", "0.008", "-picture", path("p.png"), path("s.pcd")});
+  EXPECT_TRUE(ended(r, 0, {}));
+  const std::string png = readFile(path("p.png"));
+  EXPECT_EQ(png.substr(1, 3), "PNG");
+  EXPECT_GT(png.size(), 10000u) << "there is something on it";
+  const auto drawn = [&](const std::string& azimuth) {
+    EXPECT_TRUE(ended(run("view", {"-width", "200", "-height", "150", "-azimuth", azimuth,
+                                   "-picture", path("v.png"), path("e.pcd")}),
+                      0, {}));
+    return readFile(path("v.png"));
+  };
+  EXPECT_FALSE(drawn("10") == drawn("50")) << "another eye sees something else";
+  if (!before.empty())
+    setenv("DISPLAY", before.c_str(), 1);
+}
+#endif
+
+TEST_F(Interpret, NoDisplayIsAnErrorAndNoCrash)
+{
+  setenv("DISPLAY", ":4711", 1); // nobody there
+  EXPECT_TRUE(ended(run("view", {path("s.pcd")}), 2, {"DISPLAY", "-picture"}));
+  const std::string path_before = getenv("PATH");
+  setenv("PATH", directory_.c_str(), 1); // no Xvfb
+  EXPECT_TRUE(
+      ended(run("view", {"-picture", path("p.png"), path("s.pcd")}), 2, {"apt-get", "xvfb"}));
+  EXPECT_TRUE(ended(run("interpret", {"-database", path("db.pcd"), "-leaf", "0.02", "-picture",
+                                      path("p.png"), path("s.pcd")}),
+                    2, {"p.png", "see above"}));
+  EXPECT_FALSE(std::filesystem::exists(path("p.png")));
+  setenv("PATH", path_before.c_str(), 1);
+  unsetenv("DISPLAY");
+}
+
+TEST_F(Interpret, ViewRefusesWhatIsNoScene)
+{
+  EXPECT_TRUE(ended(run("view", {path("none.pcd")}), 2, {"none.pcd"}));
+  EXPECT_TRUE(ended(run("view", {path("db.pcd")}), 2, {"db.pcd", "x, y, z"}));
 }
 
 TEST_F(Interpret, GoesOnAfterABadFile)

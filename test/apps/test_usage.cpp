@@ -6,7 +6,8 @@ using namespace pcl_surflet::test;
 namespace {
 
 const char* const kApps[] = {"train",    "classify",       "feature",  "info",       "reduce",
-                             "generate", "generate_shape", "evaluate", "experiment", "interpret"};
+                             "generate", "generate_shape", "evaluate", "experiment", "interpret",
+                             "view"};
 
 struct WrongLine {
   const char* app;
@@ -57,11 +58,14 @@ TEST(Usage, HelpNamesEveryOption)
         "-present",  "-clutter",   "-unknown",  "-background", "-density",      "-noise",
         "-csv",      "-verbose",   "-seed",     "-threads"}},
       {"interpret",
-       {"-database", "-method", "-background", "-empty", "-leaf", "-max", "-out", "-csv",
-        "-verbose", "-k", "-seed", "-threads"}},
+       {"-database", "-method", "-background", "-empty", "-planes", "-distance", "-leaf", "-max",
+        "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads"}},
+      {"view",
+       {"-database", "-picture", "-width", "-height", "-azimuth", "-elevation", "-zoom", "-point"}},
       {"generate",
-       {"-out", "-poses", "-empty", "-present", "-clutter", "-unknown", "-background", "-size",
-        "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
+       {"-out", "-poses", "-empty", "-models", "-present", "-clutter", "-unknown", "-background",
+        "-size", "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise",
+        "-seed"}},
       {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
   for (const auto& [app, names] : options) {
     const std::string help = run(app, {"-h"}).out;
@@ -74,24 +78,28 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
 {
   for (const auto* app : kApps)
     expectWrong({{app, {"-colour", "red"}, "-colour"}, {app, {"--threads"}, "--threads"}});
-  expectWrong({{"train", {"a.pcd"}, "-database"},
-               {"train", {"-database", "d.pcd"}, "FILE"},
-               {"train", {}, "-database"},
-               {"classify", {"a.pcd"}, "-database"},
-               {"classify", {"-database", "d.pcd"}, "FILE"},
-               {"feature", {"a.pcd"}, "OUT.pcd"},
-               {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
-               {"info", {}, "DB.pcd"},
-               {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
-               {"evaluate", {"-csv"}, "ITEM"},
-               {"interpret", {"s.pcd"}, "-database"},
-               {"interpret", {"-database", "d.pcd"}, "SCENE"},
-               {"interpret", {"-database", "d.pcd", "-out", "o.pcd", "a.pcd", "b.pcd"}, "b.pcd"},
-               {"interpret", {"-database", "d.pcd", "-background", "exclude", "s.pcd"}, "-empty"},
-               {"generate", {"cup"}, "-out"},
-               {"generate", {"-out", "s.pcd"}, "ITEM"},
-               {"generate_shape", {"sphere"}, "OUT"},
-               {"generate_shape", {"sphere", "a.pcd", "b"}, "'b'"}});
+  expectWrong(
+      {{"train", {"a.pcd"}, "-database"},
+       {"train", {"-database", "d.pcd"}, "FILE"},
+       {"train", {}, "-database"},
+       {"classify", {"a.pcd"}, "-database"},
+       {"classify", {"-database", "d.pcd"}, "FILE"},
+       {"feature", {"a.pcd"}, "OUT.pcd"},
+       {"feature", {"a.pcd", "b.pcd", "c.pcd"}, "c.pcd"},
+       {"info", {}, "DB.pcd"},
+       {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
+       {"evaluate", {"-csv"}, "ITEM"},
+       {"interpret", {"s.pcd"}, "-database"},
+       {"interpret", {"-database", "d.pcd"}, "SCENE"},
+       {"interpret", {"-database", "d.pcd", "-out", "o.pcd", "a.pcd", "b.pcd"}, "b.pcd"},
+       {"interpret", {"-database", "d.pcd", "-background", "exclude", "s.pcd"}, "-empty"},
+       {"interpret", {"-database", "d.pcd", "-planes", "1", "s.pcd"}, "-planes"},
+       {"interpret", {"-database", "d.pcd", "-picture", "p.png", "a.pcd", "b.pcd"}, "b.pcd"},
+       {"view", {}, "LABELLED"},
+       {"generate", {"cup"}, "-out"},
+       {"generate", {"-out", "s.pcd"}, "ITEM"},
+       {"generate_shape", {"sphere"}, "OUT"},
+       {"generate_shape", {"sphere", "a.pcd", "b"}, "'b'"}});
 }
 
 TEST(Usage, MissingAndRepeatedValuesAreNamed)

@@ -25,10 +25,50 @@ normalsOrInput(const typename pcl::PointCloud<PointInT>::ConstPtr& input,
   return normals;
 }
 
-/** \brief Converts the indexed points, or prints in the name of \p who why it cannot.
- *
- * VFHEstimation and its like skip these checks and crash without normals. A search surface other
- * than the input has no meaning for pairs: its points would have normals but no indices. */
+/** \brief What can be wrong with points, normals and indices. */
+enum class InputProblem { None, NoNormals, OtherSurface, NumberOfNormals, IndexOutside };
+
+/** \brief The problem in words, with its remedy. */
+inline const char*
+textOf(InputProblem problem)
+{
+  switch (problem) {
+  case InputProblem::NoNormals:
+    return "No normals: call setInputNormals() with one normal per input point.";
+  case InputProblem::OtherSurface:
+    return "A search surface other than the input is not supported: set it as the input.";
+  case InputProblem::NumberOfNormals:
+    return "The normals are not as many as the input points.";
+  case InputProblem::IndexOutside:
+    return "An index is outside the input cloud.";
+  case InputProblem::None:
+    break;
+  }
+  return "";
+}
+
+/** \brief Looks for what VFHEstimation and its like do not check and crash of. A search surface
+ * other than the input has no meaning for pairs: its points would have normals but no indices. */
+template <typename PointInT, typename PointNT>
+InputProblem
+findInputProblem(const typename pcl::PointCloud<PointInT>::ConstPtr& input,
+                 const typename pcl::PointCloud<PointInT>::ConstPtr& surface,
+                 const typename pcl::PointCloud<PointNT>::ConstPtr& normals,
+                 const pcl::Indices& indices)
+{
+  if (!normals)
+    return InputProblem::NoNormals;
+  if (surface && surface != input)
+    return InputProblem::OtherSurface;
+  if (normals->size() != input->size())
+    return InputProblem::NumberOfNormals;
+  for (const auto i : indices)
+    if (i < 0 || static_cast<std::size_t>(i) >= input->size())
+      return InputProblem::IndexOutside;
+  return InputProblem::None;
+}
+
+/** \brief Converts the indexed points, or prints in the name of \p who why it cannot. */
 template <typename PointInT, typename PointNT>
 bool
 convertInput(const std::string& who, const typename pcl::PointCloud<PointInT>::ConstPtr& input,
@@ -36,20 +76,12 @@ convertInput(const std::string& who, const typename pcl::PointCloud<PointInT>::C
              const typename pcl::PointCloud<PointNT>::ConstPtr& given_normals,
              const pcl::Indices& indices, ConvertedSurflets& out)
 {
-  const auto fail = [&](const char* text) {
-    PCL_ERROR("[pcl_surflet::%s::compute] %s\n", who.c_str(), text);
-    return false;
-  };
   const auto normals = normalsOrInput<PointInT, PointNT>(input, given_normals);
-  if (!normals)
-    return fail("No normals: call setInputNormals() with one normal per input point.");
-  if (surface && surface != input)
-    return fail("A search surface other than the input is not supported: set it as the input.");
-  if (normals->size() != input->size())
-    return fail("The normals are not as many as the input points.");
-  for (const auto i : indices)
-    if (i < 0 || static_cast<std::size_t>(i) >= input->size())
-      return fail("An index is outside the input cloud.");
+  const auto problem = findInputProblem<PointInT, PointNT>(input, surface, normals, indices);
+  if (problem != InputProblem::None) {
+    PCL_ERROR("[pcl_surflet::%s::compute] %s\n", who.c_str(), textOf(problem));
+    return false;
+  }
   out = toSurflets(*input, *normals, indices);
   return true;
 }

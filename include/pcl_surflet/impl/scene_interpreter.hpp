@@ -1,27 +1,123 @@
 #pragma once
 
+#include "pcl_surflet/impl/octree_region_search.hpp"
 #include "pcl_surflet/impl/oriented_input.h"
 #include "pcl_surflet/scene_interpreter.h"
 
 #include <pcl/filters/impl/filter_indices.hpp>
 
-#include <exception>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
+
+template <typename PointT, typename PointNT>
+bool
+pcl_surflet::SceneInterpreter<PointT, PointNT>::fail(SceneStatus status, const std::string& reason)
+{
+  diagnostics_.status = status;
+  diagnostics_.reason = reason;
+  PCL_ERROR("[pcl_surflet::%s::interpret] %s\n", this->filter_name_.c_str(), reason.c_str());
+  return false;
+}
+
+template <typename PointT, typename PointNT>
+bool
+pcl_surflet::SceneInterpreter<PointT, PointNT>::convertPoints(ConvertedSurflets& points)
+{
+  using detail::InputProblem;
+  const auto normals = detail::normalsOrInput<PointT, PointNT>(this->input_, normals_);
+  const auto problem = detail::findInputProblem<PointT, PointNT>(this->input_, this->input_,
+                                                                 normals, *this->indices_);
+  if (problem != InputProblem::None)
+    return fail(problem == InputProblem::NoNormals ? SceneStatus::NoNormals
+                                                   : SceneStatus::WrongInput,
+                detail::textOf(problem));
+  if (background_) {
+    const auto theirs = detail::normalsOrInput<PointT, PointNT>(background_, background_normals_);
+    if (!theirs || theirs->size() != background_->size())
+      return fail(SceneStatus::NoNormals,
+                  "The background cloud needs one normal per point: see setBackgroundCloud().");
+  }
+  points = toSurflets(*this->input_, *normals, *this->indices_);
+  diagnostics_.points = points.surflets.size();
+  diagnostics_.rejected = points.rejected;
+  return true;
+}
+
+template <typename PointT, typename PointNT>
+void
+pcl_surflet::SceneInterpreter<PointT, PointNT>::removeBackgroundCloud(
+    const ExclusionOptions& options, ConvertedSurflets& points)
+{
+  const auto normals = detail::normalsOrInput<PointT, PointNT>(background_, background_normals_);
+  pcl::Indices all(background_->size());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = static_cast<pcl::index_t>(i);
+  const SurfletSet cells =
+      detail::backgroundCells(toSurflets(*background_, *normals, all).surflets, options);
+  if (cells.empty())
+    return;
+  typename pcl::PointCloud<PointT>::Ptr positions(new pcl::PointCloud<PointT>(cells.size(), 1));
+  const auto place = [](PointT& p, const Surflet& s) {
+    p.x = s.x;
+    p.y = s.y;
+    p.z = s.z;
+  };
+  for (std::size_t i = 0; i < cells.size(); ++i)
+    place((*positions)[i], cells[i]);
+  if (!search_)
+    search_.reset(new OctreeRegionSearch<PointT>);
+  search_->setInputCloud(positions);
+  const double least = std::cos(options.max_angle);
+  pcl::Indices near;
+  std::vector<float> squared;
+  detail::removePoints(
+      [&](const Surflet& s) {
+        PointT p;
+        place(p, s);
+        search_->radiusSearch(p, options.distance, near, squared);
+        for (const auto i : near) {
+          const Surflet b = cells[static_cast<std::size_t>(i)];
+          if (s.nx * b.nx + s.ny * b.ny + s.nz * b.nz >= least)
+            return true;
+        }
+        return false;
+      },
+      points);
+}
+
+template <typename PointT, typename PointNT>
+pcl_surflet::ConvertedSurflets
+pcl_surflet::SceneInterpreter<PointT, PointNT>::withoutBackground(ConvertedSurflets points)
+{
+  ExclusionOptions options = request_.exclusion;
+  if (options.distance == 0)
+    options.distance = detail::leafOf(request_.leaf, database_);
+  if (background_)
+    removeBackgroundCloud(options, points);
+  diagnostics_.planes = detail::removePlanes(request_.planes, options, points);
+  diagnostics_.background_points = diagnostics_.points - points.surflets.size();
+  return points;
+}
 
 template <typename PointT, typename PointNT>
 bool
 pcl_surflet::SceneInterpreter<PointT, PointNT>::interpretInput(
     ConvertedSurflets& points, std::vector<SceneDetection>& detections)
 {
-  diagnostics_ = {};
-  if (!detail::convertInput<PointT, PointNT>(this->filter_name_, this->input_, this->input_,
-                                             normals_, *this->indices_, points))
+  if (!convertPoints(points))
     return false;
   try {
-    detections = detail::interpretPoints(points, database_, request_, diagnostics_);
+    const bool excludes = request_.parameters.steps.background == BackgroundTreatment::Exclude;
+    detections = detail::interpretPoints(excludes ? withoutBackground(points) : points, database_,
+                                         request_, diagnostics_, cells_);
   }
-  catch (const std::exception& error) {
-    PCL_ERROR("[pcl_surflet::%s::interpret] %s\n", this->filter_name_.c_str(), error.what());
-    return false;
+  catch (const DatabaseError& error) {
+    return fail(SceneStatus::WrongDatabase, error.what());
+  }
+  catch (const std::invalid_argument& error) {
+    return fail(SceneStatus::WrongParameter, error.what());
   }
   return true;
 }
@@ -31,8 +127,10 @@ std::vector<pcl_surflet::SceneDetection>
 pcl_surflet::SceneInterpreter<PointT, PointNT>::interpret()
 {
   std::vector<SceneDetection> detections;
+  diagnostics_ = {};
+  cells_.clear();
   if (!this->initCompute()) {
-    PCL_ERROR("[pcl_surflet::%s::interpret] No input cloud.\n", this->filter_name_.c_str());
+    fail(SceneStatus::NoInput, "No input cloud.");
     return detections;
   }
   ConvertedSurflets points;
@@ -42,29 +140,56 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::interpret()
 }
 
 template <typename PointT, typename PointNT>
+template <typename PointOutT>
+void
+pcl_surflet::SceneInterpreter<PointT, PointNT>::labelCloud(
+    const std::vector<SceneDetection>& detections, pcl::PointCloud<PointOutT>& output) const
+{
+  output.clear();
+  if (!this->input_)
+    return;
+  const auto& input = *this->input_;
+  output.resize(input.size());
+  output.header = input.header;
+  output.is_dense = input.is_dense;
+  output.width = input.width;
+  output.height = input.height;
+  output.sensor_origin_ = input.sensor_origin_;
+  output.sensor_orientation_ = input.sensor_orientation_;
+  const auto normals = detail::normalsOrInput<PointT, PointNT>(this->input_, normals_);
+  const bool have_normals = normals && normals->size() == input.size();
+  for (std::size_t i = 0; i < input.size(); ++i) {
+    auto& q = output[i];
+    q.x = input[i].x;
+    q.y = input[i].y;
+    q.z = input[i].z;
+    q.label = 0;
+    if constexpr (std::is_same<PointOutT, pcl::PointXYZLNormal>::value) {
+      const float none = std::numeric_limits<float>::quiet_NaN();
+      q.normal_x = have_normals ? (*normals)[i].normal_x : none;
+      q.normal_y = have_normals ? (*normals)[i].normal_y : none;
+      q.normal_z = have_normals ? (*normals)[i].normal_z : none;
+    }
+  }
+  for (const auto& d : detections)
+    for (const auto i : d.indices)
+      output[static_cast<std::size_t>(i)].label = static_cast<std::uint32_t>(d.model + 1);
+}
+
+template <typename PointT, typename PointNT>
 void
 pcl_surflet::SceneInterpreter<PointT, PointNT>::getLabeledCloud(
     pcl::PointCloud<pcl::PointXYZL>& output)
 {
-  const auto detections = interpret();
-  output.clear();
-  if (!this->input_)
-    return;
-  output.header = this->input_->header;
-  output.is_dense = this->input_->is_dense;
-  for (const auto& p : *this->input_) {
-    pcl::PointXYZL q;
-    q.x = p.x;
-    q.y = p.y;
-    q.z = p.z;
-    q.label = 0;
-    output.push_back(q);
-  }
-  output.width = this->input_->width;
-  output.height = this->input_->height;
-  for (const auto& d : detections)
-    for (const auto i : d.indices)
-      output[static_cast<std::size_t>(i)].label = static_cast<std::uint32_t>(d.model + 1);
+  labelCloud(interpret(), output);
+}
+
+template <typename PointT, typename PointNT>
+void
+pcl_surflet::SceneInterpreter<PointT, PointNT>::getLabeledCloud(
+    pcl::PointCloud<pcl::PointXYZLNormal>& output)
+{
+  labelCloud(interpret(), output);
 }
 
 template <typename PointT, typename PointNT>
@@ -74,6 +199,8 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::applyFilter(pcl::Indices& indice
   enum : char { Unusable, Rest, Object };
   indices.clear();
   this->removed_indices_->clear();
+  diagnostics_ = {};
+  cells_.clear();
   ConvertedSurflets points;
   std::vector<SceneDetection> detections;
   if (!interpretInput(points, detections))
@@ -93,4 +220,9 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::applyFilter(pcl::Indices& indice
 }
 
 #define PCL_INSTANTIATE_SceneInterpreter(T, NT)                                                    \
-  template class PCL_SURFLET_API pcl_surflet::SceneInterpreter<T, NT>;
+  template class PCL_SURFLET_API pcl_surflet::SceneInterpreter<T, NT>;                             \
+  template PCL_SURFLET_API void pcl_surflet::SceneInterpreter<T, NT>::labelCloud(                  \
+      const std::vector<pcl_surflet::SceneDetection>&, pcl::PointCloud<pcl::PointXYZL>&) const;    \
+  template PCL_SURFLET_API void pcl_surflet::SceneInterpreter<T, NT>::labelCloud(                  \
+      const std::vector<pcl_surflet::SceneDetection>&, pcl::PointCloud<pcl::PointXYZLNormal>&)     \
+      const;

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,10 @@ struct DissertationParameters {
 
   std::uint64_t seed = 1;
   unsigned threads = 0; ///< 0: all; the result does not depend on it
+
+  /** \brief Told now and then which share is done, in [0, 1], never falling; returns false to
+   * cancel. Called in the thread that interprets; what it throws ends the interpretation. */
+  std::function<bool(double)> progress;
 };
 
 /** \brief What the steps did for one model. Each count is what was left or lost at that point. */
@@ -70,6 +75,7 @@ struct ModelDiagnostics {
 };
 
 struct InterpretationDiagnostics {
+  bool cancelled = false;     ///< progress said so: there are no detections, the rest is partial
   std::uint64_t drawn = 0;    ///< step 1: pairs drawn
   std::uint64_t too_long = 0; ///< step 1: of these, longer than any model
   std::uint64_t featureless = 0;

@@ -1,3 +1,4 @@
+#include "progress.h"
 #include "steps.h"
 
 #include "pcl_surflet/core/linear_octree.h"
@@ -10,6 +11,9 @@ namespace pcl_surflet {
 namespace {
 
 using namespace interpretation;
+
+// Progress after the steps before and after those that run model by model.
+constexpr double kPreselected = 0.2, kClustered = 0.95;
 
 constexpr std::uint64_t kCheckStream = std::uint64_t{2} << 40;
 
@@ -75,13 +79,22 @@ interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
   auto& diagnostics = result.diagnostics;
   diagnostics = emptyDiagnostics(database);
 
+  ProgressReport progress(parameters.progress, diagnostics.cancelled);
+  if (!progress.goesOn(0))
+    return result;
   const auto selected = preselect(scene, parameters, diagnostics); // step 1
   std::vector<ClustersOfModel> clusters(models.objects);
-  parallelFor(models.objects, parameters.threads, [&](std::size_t k, unsigned) { // steps 2 to 6
-    clusters[k] =
-        clustersOf(scene, k, selected[k], parameters, diagnostics.models[models.all[k].index]);
+  progress.beginPart(kPreselected, kClustered, models.objects);
+  parallelFor(models.objects, parameters.threads, [&](std::size_t k, unsigned worker) {
+    if (progress.goesOnInPart(worker)) // steps 2 to 6
+      clusters[k] =
+          clustersOf(scene, k, selected[k], parameters, diagnostics.models[models.all[k].index]);
   });
+  if (!progress.goesOn(kClustered))
+    return result;
   compete(scene, clusters, diagnostics); // step 7
+  if (!progress.goesOn(1))
+    return result;
   result.detections = detectionsOf(scene, clusters);
   for (const auto& d : result.detections)
     ++diagnostics.models[d.model].detections;

@@ -1,0 +1,25 @@
+/** \file
+ * Labelled oriented points as PCD files: what scenes are kept in. */
+#pragma once
+
+#include "pcl_surflet/core/surflet_set.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+namespace apps {
+
+/** \brief What belongs to every point of a scene. */
+struct PointLabels {
+  std::vector<std::uint32_t> labels;    ///< 0 none, else the object's number from 1
+  std::vector<std::uint32_t> instances; ///< 0 none, else which thing of the scene, from 1
+};
+
+/** \brief Binary PCD with x y z normal_x normal_y normal_z and, unless null, label and instance.
+ * \p labels are as many as \p set. */
+std::string asPcd(const SurfletSet& set, const PointLabels* labels);
+
+} // namespace apps
+} // namespace pcl_surflet
