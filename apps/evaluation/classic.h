@@ -24,7 +24,7 @@ struct ClassicParameters {
   unsigned planes = 1;         ///< planes removed at most
   double min_plane = 0.05;     ///< a plane holds at least this share of the cells, in [0, 1]
   double plane_distance = 0.5; ///< farthest cell that belongs to a plane
-  double tolerance = 2;        ///< farthest neighbour of the same cluster
+  double tolerance = 1.3;      ///< farthest neighbour of the same cluster
   /** \brief Smallest cluster, as a share of the smallest one trained, in [0, 1]. */
   double min_cluster = 0.3;
   /** \brief Unknown is what is farther from its neighbour than the farthest example of the object

@@ -18,7 +18,7 @@ struct ComparisonOptions {
   double leaf = 0.0058;
   unsigned threads = 0;
   bool peers = false;   ///< PCL's normal estimation and voxel grid run on every scene
-  bool memory = false;  ///< peak of reduction and interpretation
+  bool memory = false;  ///< peak of reduction and interpretation, on the first scenes
   bool verbose = false; ///< what was found where, and what each step did, to stderr
 };
 

@@ -3,7 +3,9 @@
 #include "evaluation/classic.h"
 
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/geometry.h"
 
+#include <algorithm>
 #include <functional>
 
 namespace pcl_surflet {
@@ -14,6 +16,8 @@ constexpr int kDissertationBins = 5, kExplanationBins = 7;
 /** \brief Examples of an object for the classic: turns about the vertical, or postures as well. */
 constexpr std::uint64_t kTurns = 12, kPostures = 48;
 constexpr unsigned kBowlPlanes = 5;
+/** \brief Edge of what carries an example, in diameters of the object. */
+constexpr double kExampleSize = 2;
 
 SurfletSet
 emptyCells(const SceneOptions& scene, double leaf)
@@ -138,6 +142,7 @@ private:
     alone.spacing = Spacing::Apart;
     alone.present = 1;
     alone.clutter = 0;
+    alone.size = std::min(alone.size, kExampleSize * farthestDistance(item.sample(1000, seed)));
     // Nothing is learned from a bowl, in which planes cannot be told from the object.
     if (alone.background == Background::Bowl)
       alone.background = Background::Plane;
