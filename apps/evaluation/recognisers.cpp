@@ -142,10 +142,11 @@ private:
     alone.spacing = Spacing::Apart;
     alone.present = 1;
     alone.clutter = 0;
-    alone.size = std::min(alone.size, kExampleSize * farthestDistance(item.sample(1000, seed)));
-    // Nothing is learned from a bowl, in which planes cannot be told from the object.
-    if (alone.background == Background::Bowl)
+    // Nothing is learned from planes in a bowl: they cannot be told from the object.
+    if (alone.background == Background::Bowl && !exclude_)
       alone.background = Background::Plane;
+    if (alone.background != Background::Bowl) // a smaller bowl would be another one
+      alone.size = std::min(alone.size, kExampleSize * farthestDistance(item.sample(1000, seed)));
     SurfletSet cells = reduceToCells(generateScene({item}, {}, alone).surflets, leaf_).cells;
     if (exclude_)
       cells = cells.subset(cellsAwayFrom(cells, emptyCells(alone, leaf_), leaf_));
