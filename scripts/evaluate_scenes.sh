@@ -41,8 +41,10 @@ done
 
 # run GROUP NAME OPTION... ITEM...: one call of the program, unless its result is there. A group is a
 # table or a curve.
+order=()
 run() {
   local group=$1 name=$2
+  order+=("$group.$name")
   local file="$directory/rows/$group.$name.$methods.csv"
   [[ $name =~ ${ONLY:-.} ]] || return 0
   [ -s "$file" ] && return 0
@@ -81,11 +83,11 @@ run scaling area -scenes "$few" -treatment exclude -peers -memory -scaling area 
 run scaling models -scenes "$few" -treatment exclude -peers -memory -scaling models -extra "$extra" \
   "${seven[@]}"
 
-# gathered GROUP: the rows of a group in the order in which they were run, one header.
+# gathered GROUP: its rows in the order above, one header.
 gathered() {
-  local file
-  for file in $(ls -tr "$directory"/rows/"$1".*.csv 2>/dev/null); do
-    cat "$file"
+  local name
+  for name in "${order[@]}"; do
+    if [[ $name == "$1".* ]]; then cat "$directory/rows/$name".*.csv 2>/dev/null || true; fi
   done | awk 'NR == 1 || !/^row,/'
 }
 overall() { awk -F, 'NR == 1 || $12 == "all"'; }
