@@ -29,7 +29,7 @@ struct ClassicParameters {
   double min_cluster = 0.3;
   /** \brief Unknown is what is farther from its neighbour than the farthest example of the object
    * from the others, times this. */
-  double slack = 1.5;
+  double slack = 2;
 };
 
 /** \brief A cluster of the scene and its name. */
