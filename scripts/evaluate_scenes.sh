@@ -105,8 +105,12 @@ awk -F, 'NR == 1 {
       $5, rate(21), $33, rate(24), rate(27), rate(30), $34, $35, $8, $9, $11 }' \
   "$directory/scenes.csv" >"$directory/scenes.txt"
 cat "$directory/scenes.txt"
-if command -v gnuplot >/dev/null; then
-  for plot in table_51 critical scaling; do
-    (cd "$directory" && gnuplot "$OLDPWD/doc/interpretation/$plot.gnuplot") || true
-  done
-fi
+# draw PLOT CSV: if there is anything to draw.
+draw() {
+  [ "$(wc -l <"$directory/$2.csv")" -gt 1 ] || return 0
+  (cd "$directory" && gnuplot "$OLDPWD/doc/interpretation/$1.gnuplot") ||
+    echo "gnuplot is missing or failed; install gnuplot-nox" >&2
+}
+draw table_51 scenes
+draw critical critical
+draw scaling scaling
