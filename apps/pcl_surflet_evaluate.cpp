@@ -1,17 +1,10 @@
-// How well are the objects of generated scenes found? Table 5.1 and beyond.
+// How well are the objects of generated scenes found? Table 5.1, Fig. 5.5 and beyond.
 
 #include "app_common.h"
-#include "evaluation/scoring.h"
+#include "evaluation/comparison.h"
 #include "scene_items.h"
 
-#include "pcl_surflet/core/cell_reduction.h"
-#include "pcl_surflet/core/conditions.h"
-#include "pcl_surflet/core/counter_random.h"
-#include "pcl_surflet/recognition/histogram_model_trainer.h"
-#include "pcl_surflet/recognition/scene_interpretation.h"
-
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -21,199 +14,302 @@ using namespace pcl_surflet::apps;
 namespace {
 
 constexpr const char* kProgram = "pcl_surflet_evaluate";
-constexpr std::size_t kTrainingSurflets = 100000; // as in [Wahl 2007, Sec. 5.5.2]
-constexpr std::uint64_t kOrientations = 4;
-constexpr std::size_t kBackgroundPatches = 8;
-constexpr std::uint64_t kTrainingSeed = 0x747261696eULL; // never the seed of a scene's sample
+
+enum class Scaling { None, Area, Models };
 
 struct Options {
-  SceneOptions scene;
-  DissertationParameters parameters;
-  ExplanationParameters explanation; ///< its steps are parameters
-  bool by_explanation = false;
-  std::uint64_t scenes = 10, seed = 1001, threads = 0, bins = 5;
-  double leaf = 0.0058;
-  bool on_cells = false, csv = false, verbose = false;
+  RecogniserOptions recogniser;
+  ComparisonOptions comparison;
+  std::vector<std::string> methods = {"dissertation"};
+  std::string row = "scenes";
+  std::vector<double> critical; ///< distance factors
+  Scaling scaling = Scaling::None;
+  std::vector<double> factors = {1, 2, 5, 10};
+  std::uint64_t scenes = 10, seed = 1001, threads = 0, bins = 0;
+  bool csv = false;
 };
 
-Resolution
-resolutionOf(const Options& o)
-{
-  const int n = static_cast<int>(o.bins);
-  return {n, n, n, n};
-}
+/** \brief The things of an evaluation. */
+struct Things {
+  std::vector<SceneItem> objects, clutter, extra;
+};
 
-/** \brief A model of what the item looks like after reduction to cells: thin walls cancel and cells
- * on edges average there as in a scene. One member for each of a few orientations. */
-HistogramModel
-trainedOnCells(const HistogramModelTrainer& trainer, const SceneItem& item, const Options& o)
+using Methods = std::vector<std::shared_ptr<const Recogniser>>;
+using SceneMaker = std::function<Scene(std::uint64_t k)>;
+
+std::string
+treatmentName(BackgroundTreatment treatment)
 {
-  const auto surflets =
-      item.sample(static_cast<std::size_t>(item.area * o.scene.density) + 1, kTrainingSeed);
-  HistogramModel model;
-  for (std::uint64_t k = 0; k < kOrientations; ++k) {
-    const auto cells = reduceToCells(randomlyRotated(surflets, kTrainingSeed + k), o.leaf).cells;
-    HistogramModel turned = trainer.train(item.label, cells);
-    turned.members.front().condition = "cells, orientation " + std::to_string(k);
-    if (k == 0)
-      model = std::move(turned);
-    else
-      model.members.push_back(turned.members.front());
+  switch (treatment) {
+  case BackgroundTreatment::Exclude:
+    return "exclude";
+  case BackgroundTreatment::Model:
+    return "model";
+  default:
+    return "ignore";
   }
-  return model;
 }
 
-/** \brief Surflets of \p set within \p radius of one of them, drawn at random. */
-SurfletSet
-patchOf(const SurfletSet& set, double radius, CounterRandom& random)
-{
-  const Surflet c = set[random.below(static_cast<std::uint32_t>(set.size()))];
-  SurfletSet patch;
-  for (std::size_t i = 0; i < set.size(); ++i)
-    if (std::hypot(set.x[i] - c.x, set.y[i] - c.y, set.z[i] - c.z) <= radius)
-      patch.push_back(set[i]);
-  return patch;
-}
-
-/** \brief Models of pieces of the empty background, of the size of the largest object. */
-void
-addBackground(ModelDatabase& database, const Options& o, HistogramModelTrainer trainer)
-{
-  SceneOptions scene = o.scene;
-  scene.seed = kTrainingSeed;
-  const SurfletSet empty = reduceToCells(emptyBackground(scene), o.leaf).cells;
-  const double radius = database.largestDelta() / 2;
-  CounterRandom random(kTrainingSeed);
-  trainer.setRole(ModelRole::Background);
-  const std::size_t patches = scene.background == Background::Plane ? 1 : kBackgroundPatches;
-  for (std::size_t k = 0; k < patches; ++k)
-    database.add(trainer.train("background " + std::to_string(k), patchOf(empty, radius, random)));
-}
-
-ModelDatabase
+Methods
 trained(const std::vector<SceneItem>& objects, const Options& o)
 {
-  HistogramModelTrainer trainer;
-  trainer.setResolution(resolutionOf(o));
-  trainer.setNumberOfThreads(static_cast<unsigned>(o.threads));
-  ModelDatabase database;
-  for (const auto& item : objects)
-    database.add(o.on_cells
-                     ? trainedOnCells(trainer, item, o)
-                     : trainer.train(item.label, item.sample(kTrainingSurflets, kTrainingSeed)));
-  if (o.parameters.background == BackgroundTreatment::Model)
-    addBackground(database, o, trainer);
-  return database;
+  Methods methods;
+  for (const auto& name : o.methods)
+    methods.push_back(recogniser(name, objects, o.recogniser));
+  return methods;
 }
 
-/** \brief A scene as the interpretation gets it, with the truth about every cell. */
-CellScene
-cellScene(const Scene& scene, const Options& o)
+std::vector<std::string>
+labelsOf(const std::vector<SceneItem>& items)
 {
-  const CellReduction reduction = reduceToCells(scene.surflets, o.leaf);
-  CellScene out = withTruth(reduction, scene);
-  if (o.parameters.background != BackgroundTreatment::Exclude)
-    return out;
-  SceneOptions options = o.scene;
-  const SurfletSet empty = reduceToCells(emptyBackground(options), o.leaf).cells;
-  return subsetOf(out, cellsAwayFrom(out.cells, empty, o.leaf));
+  std::vector<std::string> labels;
+  for (const auto& item : items)
+    labels.push_back(item.label);
+  return labels;
 }
 
+/** \brief One row: every method on all scenes. \p objects are what the methods know. */
 void
-printDiagnostics(const InterpretationDiagnostics& d)
+evaluateRow(const std::string& name, const std::vector<SceneItem>& objects, const Methods& methods,
+            const SceneMaker& scene, const Options& o)
 {
-  std::fprintf(stderr, "drawn %llu, too long %llu, background %llu\n",
-               static_cast<unsigned long long>(d.drawn),
-               static_cast<unsigned long long>(d.too_long),
-               static_cast<unsigned long long>(d.background));
-  std::fprintf(stderr, "%-14s %8s %8s %5s %8s %7s %8s %5s %5s %5s %5s %5s %5s %5s %5s\n", "model",
-               "pairs", "surflets", "seeds", "in seeds", "cleared", "refined", "lone", "clust",
-               "other", "small", "rel", "merge", "lost", "found");
-  for (const auto& m : d.models)
-    std::fprintf(
-        stderr, "%-14s %8llu %8zu %5zu %8zu %7zu %8zu %5zu %5zu %5zu %5zu %5zu %5zu %5zu %5zu\n",
-        m.label.c_str(), static_cast<unsigned long long>(m.pairs), m.surflets, m.seeds,
-        m.seed_surflets, m.seeds_cleared, m.refined_surflets, m.seeds_lone, m.clusters,
-        m.died_distribution, m.died_small, m.died_relative, m.merged, m.lost, m.detections);
-}
-
-void
-evaluate(const std::vector<SceneItem>& objects, const std::vector<SceneItem>& clutter, Options& o)
-{
-  const ModelDatabase database = trained(objects, o);
-  Score total(database);
+  Comparison comparison(name, labelsOf(objects), o.comparison);
+  for (std::size_t m = 0; m < methods.size(); ++m)
+    comparison.enter(o.methods[m], methods[m]);
   Progress progress(o.scenes);
-  double seconds = 0, cells = 0;
   for (std::uint64_t k = 0; k < o.scenes; ++k) {
-    progress.show(k, "scene");
-    o.scene.seed = o.parameters.seed = o.seed + k;
-    const CellScene scene = cellScene(generateScene(objects, clutter, o.scene), o);
-    const auto begin = std::chrono::steady_clock::now();
-    o.explanation.steps = o.parameters;
-    const auto found = o.by_explanation
-                           ? interpretByExplanation(scene.cells, database, o.explanation)
-                           : interpretByDissertation(scene.cells, database, o.parameters);
-    seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    cells += static_cast<double>(scene.cells.size());
-    total.add(scene, found.detections);
-    if (o.verbose) {
-      progress.clear();
-      for (const auto& d : found.detections)
-        std::fprintf(stderr, "%-12s cells %6zu score %.3f fit %.3f truth %s\n", d.label.c_str(),
-                     d.cells.size(), d.score, d.fit, truthOf(scene, d).c_str());
-      printDiagnostics(found.diagnostics);
-    }
+    progress.show(k, name);
+    comparison.run(scene(k), o.seed + k);
   }
   progress.clear();
-  std::fputs(o.csv ? total.csv().c_str() : total.table().c_str(), stdout);
-  const double n = static_cast<double>(o.scenes);
-  note(number(cells / n) + " cells and " + number(seconds / n) + " s a scene");
+  const auto treatment = treatmentName(o.recogniser.dissertation.background);
+  const std::string text =
+      o.csv ? comparison.csv(objects.size(), treatment, o.seed) : comparison.table();
+  std::fputs(text.c_str(), stdout);
+  std::fflush(stdout); // rows take long
+}
+
+SceneOptions
+sceneOptions(const Options& o, std::uint64_t k)
+{
+  SceneOptions scene = o.recogniser.scene;
+  scene.seed = o.seed + k;
+  return scene;
+}
+
+/** \brief Fig. 5.5: two instances of one object, which changes from scene to scene. */
+void
+evaluateCritical(const Things& things, const Options& o)
+{
+  const Methods methods = trained(things.objects, o);
+  for (const double factor : o.critical)
+    evaluateRow(
+        o.row + " " + number(factor), things.objects, methods,
+        [&](std::uint64_t k) {
+          SceneOptions scene = sceneOptions(o, k);
+          scene.spacing = Spacing::Pair;
+          scene.distance_factor = factor;
+          scene.present = 2;
+          const auto& item = things.objects[k % things.objects.size()];
+          return generateScene({item, item}, things.clutter, scene);
+        },
+        o);
+}
+
+/** \brief Scenes of \p factor times the area and the objects. */
+void
+evaluateArea(const Things& things, const Options& o)
+{
+  const Methods methods = trained(things.objects, o);
+  for (const double factor : o.factors) {
+    const auto times = static_cast<std::size_t>(factor);
+    std::vector<SceneItem> objects;
+    for (std::size_t k = 0; k < times; ++k)
+      objects.insert(objects.end(), things.objects.begin(), things.objects.end());
+    evaluateRow(
+        o.row + " " + number(factor), things.objects, methods,
+        [&](std::uint64_t k) {
+          SceneOptions scene = sceneOptions(o, k);
+          scene.size *= std::sqrt(factor);
+          scene.present *= times;
+          return generateScene(objects, things.clutter, scene);
+        },
+        o);
+  }
+}
+
+/** \brief The same scenes with \p factor times the models. */
+void
+evaluateModels(const Things& things, const Options& o)
+{
+  for (const double factor : o.factors) {
+    const auto more =
+        static_cast<std::size_t>((factor - 1) * static_cast<double>(things.objects.size()));
+    if (more > things.extra.size())
+      throw UsageError("option -extra: " + std::to_string(more) + " items are needed, not " +
+                       std::to_string(things.extra.size()));
+    auto known = things.objects;
+    known.insert(known.end(), things.extra.begin(),
+                 things.extra.begin() + static_cast<std::ptrdiff_t>(more));
+    evaluateRow(
+        o.row + " " + number(factor), known, trained(known, o),
+        [&](std::uint64_t k) {
+          return generateScene(things.objects, things.clutter, sceneOptions(o, k));
+        },
+        o);
+  }
 }
 
 void
-addMethod(CommandLine& line, Options& o)
+evaluate(const Things& things, const Options& o)
 {
-  addChoice<bool>(line, "-method", "default dissertation", o.by_explanation,
-                  {{"dissertation", false}, {"explanation", true}});
+  if (o.csv)
+    std::fputs(Comparison::csvHeader().c_str(), stdout);
+  if (!o.critical.empty())
+    evaluateCritical(things, o);
+  else if (o.scaling == Scaling::Area)
+    evaluateArea(things, o);
+  else if (o.scaling == Scaling::Models)
+    evaluateModels(things, o);
+  else
+    evaluateRow(
+        o.row, things.objects, trained(things.objects, o),
+        [&](std::uint64_t k) {
+          return generateScene(things.objects, things.clutter, sceneOptions(o, k));
+        },
+        o);
+}
+
+void
+addMethods(CommandLine& line, Options& o)
+{
+  std::string names;
+  for (const auto& name : recogniserNames())
+    names += (names.empty() ? "" : ", ") + name;
+  line.option("-method", "NAME,...", "default dissertation: " + names,
+              [&o, names](const std::string& text) {
+                o.methods = parts(text, ',');
+                const auto& known = recogniserNames();
+                for (const auto& name : o.methods)
+                  if (std::find(known.begin(), known.end(), name) == known.end())
+                    throw UsageError("option -method: there is no '" + name + "'; the names are " +
+                                     names);
+              });
+}
+
+void
+addParameters(CommandLine& line, RecogniserOptions& o, std::uint64_t& bins)
+{
+  auto& steps = o.dissertation;
   addChoice<BackgroundTreatment>(line, "-treatment", "of the background, default ignore",
-                                 o.parameters.background,
+                                 steps.background,
                                  {{"ignore", BackgroundTreatment::Ignore},
                                   {"exclude", BackgroundTreatment::Exclude},
                                   {"model", BackgroundTreatment::Model}});
-  line.count("-bins", "N", "intervals in each of the four dimensions, default 5", o.bins, 1, 32);
-  line.flag("-on_cells", "trains on surflets reduced to cells, as scenes are", o.on_cells);
+  line.count("-bins", "N", "intervals in each of the four dimensions, default as suits the method",
+             bins, 1, 32);
+  line.flag("-on_surfaces", "explanation: trains on the surfaces, not on cells of them",
+            o.on_surfaces);
   line.real("-leaf", "S", "edge of the cells, default 0.0058", o.leaf, 1e-9, 1e9);
-  line.count("-pairs", "N", "pairs drawn in step 1, default 232000", o.parameters.pairs, 1,
-             1000000000);
-  line.real("-lambda_h", "X", "step 1, default 1.3", o.parameters.lambda_h, 1e-3, 1e3);
-  line.real("-lambda_o", "X", "step 4, default 0.3", o.parameters.lambda_o, 0, 0.999);
-  line.real("-lambda_c", "X", "step 6, default 0.3", o.parameters.lambda_c, 0, 1);
+  line.count("-pairs", "N", "pairs drawn in step 1, default 232000", steps.pairs, 1, 1000000000);
+  line.real("-lambda_h", "X", "step 1, default 1.3", steps.lambda_h, 1e-3, 1e3);
+  line.real("-lambda_o", "X", "step 4, default 0.3", steps.lambda_o, 0, 0.999);
+  line.real("-lambda_c", "X", "step 6, default 0.3", steps.lambda_c, 0, 1);
   line.real("-min_fit", "X", "explanation: least histogram intersection, default 0.72",
             o.explanation.min_fit, 0, 1);
-  line.real("-max_surprise", "X", "explanation: nats per feature, default 0.1",
-            o.explanation.max_surprise, -10, 100);
 }
 
-/** \brief What else scenes hold, given on the command line. */
+/** \brief What scenes hold and methods know, given on the command line. */
 struct Contents {
-  std::string clutter;
+  std::string clutter, extra;
   std::uint64_t present = 0, unknown = 0;
 };
 
 void
 addScenes(CommandLine& line, Options& o, Contents& contents)
 {
+  auto& scene = o.recogniser.scene;
   line.count("-scenes", "N", "number of scenes, default 10", o.scenes, 1, 1000000);
   line.count("-present", "N", "items present, chosen at random, default all", contents.present, 1,
              1000000);
   line.text("-clutter", "ITEM,...", "things unknown to the database", contents.clutter);
   line.count("-unknown", "N", "things present of the clutter, default all", contents.unknown, 0,
              1000000);
-  addArrangement(line, o.scene);
-  line.real("-density", "D", "points per squared unit, default 470000", o.scene.density, 1e-9,
-            1e12);
-  line.real("-noise", "S", "moves points along their normals by up to S, default 0", o.scene.noise,
-            0, 1e6);
+  addArrangement(line, scene);
+  line.real("-density", "D", "points per squared unit, default 470000", scene.density, 1e-9, 1e12);
+  line.real("-noise", "S", "moves points along their normals by up to S, default 0", scene.noise, 0,
+            1e6);
+}
+
+/** \brief An option that takes several numbers. */
+void
+addNumbers(CommandLine& line, const std::string& name, const std::string& help, double low,
+           double high, std::vector<double>& target)
+{
+  line.option(name, "F,...", help, [=, &target](const std::string& text) {
+    target.clear();
+    for (const auto& part : parts(text, ','))
+      target.push_back(parseReal(name, part, low, high));
+  });
+}
+
+void
+addSeries(CommandLine& line, Options& o, Contents& contents)
+{
+  addNumbers(line, "-critical",
+             "a row each: two instances of an item, F bounding radii apart [Wahl 2007, Fig. 5.5]",
+             0, 1e3, o.critical);
+  addChoice<Scaling>(line, "-scaling", "a row each for several times as much", o.scaling,
+                     {{"area", Scaling::Area}, {"models", Scaling::Models}});
+  addNumbers(line, "-times", "whole numbers for -scaling, default 1,2,5,10", 1, 1000, o.factors);
+  line.text("-extra", "ITEM,...", "items for -scaling models that are in no scene", contents.extra);
+}
+
+void
+addOutput(CommandLine& line, Options& o)
+{
+  line.text("-row", "NAME", "what the results are called, default scenes", o.row);
+  line.flag("-csv", "prints CSV", o.csv);
+  line.flag("-peers",
+            "compares times with pcl::NormalEstimationOMP (20 neighbours) on the same cells and "
+            "pcl::VoxelGrid",
+            o.comparison.peers);
+  line.flag("-memory", "measures memory beside the scene", o.comparison.memory);
+  line.flag("-verbose", "prints what was found and what each step did to stderr",
+            o.comparison.verbose);
+  line.count("-seed", "S", "seed of the first scene, the next one counts on, default 1001", o.seed,
+             0, 1ULL << 62);
+  addThreads(line, o.threads);
+}
+
+Things
+thingsOf(const CommandLine& line, const Contents& contents)
+{
+  Things things;
+  things.objects = itemsOf(line.files());
+  if (line.given("-clutter"))
+    things.clutter = itemsOf(parts(contents.clutter, ','));
+  if (line.given("-extra"))
+    things.extra = itemsOf(parts(contents.extra, ','));
+  return things;
+}
+
+void
+settle(Options& o, const CommandLine& line, const Contents& contents, const Things& things)
+{
+  auto& scene = o.recogniser.scene;
+  scene.present = line.given("-present") ? contents.present : things.objects.size();
+  scene.clutter = line.given("-unknown") ? contents.unknown : things.clutter.size();
+  if (scene.present > things.objects.size() || scene.clutter > things.clutter.size())
+    throw UsageError(std::string("option ") +
+                     (scene.present > things.objects.size() ? "-present" : "-unknown") +
+                     ": so many things were not given");
+  for (auto& factor : o.factors)
+    factor = std::floor(factor);
+  o.recogniser.bins = static_cast<int>(o.bins);
+  o.recogniser.dissertation.threads = static_cast<unsigned>(o.threads);
+  o.comparison.threads = static_cast<unsigned>(o.threads);
+  o.comparison.leaf = o.recogniser.leaf;
 }
 
 int
@@ -222,29 +318,23 @@ run(int argc, char** argv)
   Options o;
   Contents contents;
   CommandLine line(kProgram, "ITEM...",
-                   "Generates scenes of the ITEMs (see pcl_surflet_generate), interprets them and "
-                   "counts what was found:\nclassification rate and accuracy [Wahl 2007, Eq. 5.9, "
-                   "5.10], strict rate, recall, false clusters.");
-  addMethod(line, o);
+                   "Generates scenes of the ITEMs (see pcl_surflet_generate), lets one or more "
+                   "methods interpret them and\ncounts what was found: classification rate and "
+                   "accuracy [Wahl 2007, Eq. 5.9, 5.10], strict rate, recall,\nprecision, false "
+                   "clusters. classic_vfh and classic_esf remove planes, cluster what is left and "
+                   "name\nclusters by their nearest neighbour; exclusion_vfh leaves out the empty "
+                   "scene in place of planes.");
+  addMethods(line, o);
+  addParameters(line, o.recogniser, o.bins);
   addScenes(line, o, contents);
-  line.flag("-csv", "prints CSV", o.csv);
-  line.flag("-verbose", "prints what each step did to stderr", o.verbose);
-  line.count("-seed", "S", "seed of the first scene, the next one counts on, default 1001", o.seed,
-             0, 1ULL << 62);
-  addThreads(line, o.threads);
+  addSeries(line, o, contents);
+  addOutput(line, o);
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1000);
-  const auto objects = itemsOf(line.files());
-  const auto others = line.given("-clutter") ? itemsOf(parts(contents.clutter, ',')) : itemsOf({});
-  o.scene.present = line.given("-present") ? contents.present : objects.size();
-  o.scene.clutter = line.given("-unknown") ? contents.unknown : others.size();
-  if (o.scene.present > objects.size() || o.scene.clutter > others.size())
-    throw UsageError(std::string("option ") +
-                     (o.scene.present > objects.size() ? "-present" : "-unknown") +
-                     ": so many things were not given");
-  o.parameters.threads = static_cast<unsigned>(o.threads);
-  evaluate(objects, others, o);
+  const Things things = thingsOf(line, contents);
+  settle(o, line, contents, things);
+  evaluate(things, o);
   return kOk;
 }
 

@@ -118,10 +118,11 @@ addArrangement(CommandLine& line, SceneOptions& o)
                       {"lying", Posture::Lying},
                       {"leaning", Posture::Leaning},
                       {"mixed", Posture::Mixed}});
-  addChoice<Spacing>(line, "-spacing", "apart (default) or pushed together", o.spacing,
-                     {{"apart", Spacing::Apart}, {"pile", Spacing::Pile}});
+  addChoice<Spacing>(line, "-spacing",
+                     "apart (default), pushed together, or the others around the first", o.spacing,
+                     {{"apart", Spacing::Apart}, {"pile", Spacing::Pile}, {"pair", Spacing::Pair}});
   line.real("-factor", "F",
-            "apart: centroids at least F times the smaller bounding radius apart, default 1",
+            "apart, pair: centroids F times the smaller bounding radius apart, or more; default 1",
             o.distance_factor, 0, 1e6);
   line.real("-gap", "G", "pile: gap along the direction of pushing, default 0", o.gap, 0, 1e6);
 }

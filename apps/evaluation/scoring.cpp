@@ -67,17 +67,6 @@ withTruth(const CellReduction& reduction, const Scene& scene)
   return out;
 }
 
-CellScene
-subsetOf(const CellScene& scene, const std::vector<std::uint32_t>& indices)
-{
-  CellScene out;
-  out.cells = scene.cells.subset(indices);
-  out.items = scene.items;
-  for (const auto i : indices)
-    out.instance.push_back(scene.instance[i]);
-  return out;
-}
-
 std::string
 truthOf(const CellScene& scene, const Detection& d)
 {
@@ -117,10 +106,20 @@ rateOf(std::size_t hits, std::size_t trials)
   return {100 * p, 100 * std::max(0.0, centre - half), 100 * std::min(1.0, centre + half)};
 }
 
-Score::Score(const ModelDatabase& database) : counts_(database.size())
+Rate
+precisionOf(const Counts& c)
 {
-  for (std::size_t i = 0; i < database.size(); ++i)
-    labels_.push_back(database[i].label);
+  return rateOf(c.strict - c.doubles, c.clusters);
+}
+
+double
+recallTimesPrecision(const Counts& c)
+{
+  return rateOf(c.found, c.present).percent * precisionOf(c).percent / 100;
+}
+
+Score::Score(std::vector<std::string> labels) : labels_(std::move(labels)), counts_(labels_.size())
+{
 }
 
 void
@@ -152,14 +151,21 @@ Score::add(const CellScene& scene, const std::vector<Detection>& detections)
   }
 }
 
+Counts
+Score::all() const
+{
+  Counts sum;
+  for (const auto& c : counts_)
+    sum += c;
+  return sum;
+}
+
 double
 Score::falsePerScene() const
 {
-  Counts all;
-  for (const auto& c : counts_)
-    all += c;
+  const Counts sum = all();
   return scenes_ == 0 ? 0
-                      : static_cast<double>(all.clusters - all.strict + all.doubles) /
+                      : static_cast<double>(sum.clusters - sum.strict + sum.doubles) /
                             static_cast<double>(scenes_);
 }
 
@@ -168,31 +174,47 @@ Score::table() const
 {
   std::string text = "object       present clusters   classification %     strict %             "
                      "acc.   recall %\n";
-  Counts all;
-  for (std::size_t m = 0; m < labels_.size(); ++m) {
-    all += counts_[m];
+  for (std::size_t m = 0; m < labels_.size(); ++m)
     if (counts_[m].present + counts_[m].clusters > 0)
       text += row(labels_[m], counts_[m]);
-  }
-  text += row("all", all);
-  text += "false clusters a scene: " + number(falsePerScene()) + " (";
-  text += std::to_string(scenes_) + " scenes; in brackets: 95 % confidence)\n";
+  const Counts sum = all();
+  text += row("all", sum);
+  text += "precision " + number(precisionOf(sum).percent) + " %, recall times precision " +
+          number(recallTimesPrecision(sum)) + " %, false clusters a scene " +
+          number(falsePerScene()) + " (" + std::to_string(scenes_) +
+          " scenes; in brackets: 95 % confidence)\n";
   return text;
 }
 
 std::string
-Score::csv() const
+Score::csvHeader()
 {
-  std::string text = "object,present,found,clusters,right,strict,doubles,cells,right_cells\n";
-  for (std::size_t m = 0; m < labels_.size(); ++m) {
-    const Counts& c = counts_[m];
-    text += csvField(labels_[m]);
+  std::string text = "object,present,found,clusters,right,strict,doubles,cells,right_cells";
+  for (const std::string rate : {"classification", "strict_rate", "recall", "precision"})
+    text += "," + rate + "," + rate + "_low," + rate + "_high";
+  return text + ",accuracy,recall_times_precision,false_per_scene";
+}
+
+std::string
+Score::csv(const std::string& prefix) const
+{
+  const auto line = [&](const std::string& label, const Counts& c) {
+    std::string text = prefix + csvField(label);
     for (const auto v :
          {c.present, c.found, c.clusters, c.right, c.strict, c.doubles, c.cells, c.right_cells})
-      text.append(",").append(std::to_string(v));
-    text += "\n";
-  }
-  return text;
+      text += "," + std::to_string(v);
+    for (const Rate& r : {rateOf(c.right, c.clusters), rateOf(c.strict, c.clusters),
+                          rateOf(c.found, c.present), precisionOf(c)})
+      text += "," + number(r.percent) + "," + number(r.low) + "," + number(r.high);
+    const auto wrong = static_cast<double>(c.clusters - c.strict + c.doubles);
+    return text + "," + number(rateOf(c.right_cells, c.cells).percent) + "," +
+           number(recallTimesPrecision(c)) + "," +
+           number(scenes_ == 0 ? 0 : wrong / static_cast<double>(scenes_)) + "\n";
+  };
+  std::string text;
+  for (std::size_t m = 0; m < labels_.size(); ++m)
+    text += line(labels_[m], counts_[m]);
+  return text + line("all", all());
 }
 
 } // namespace apps

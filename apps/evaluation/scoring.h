@@ -20,8 +20,6 @@ struct CellScene {
 };
 
 CellScene withTruth(const CellReduction& reduction, const Scene& scene);
-/** \brief The cells named by \p indices. */
-CellScene subsetOf(const CellScene& scene, const std::vector<std::uint32_t>& indices);
 
 /** \brief Label of what most cells of \p d come from: an item, or "background". */
 std::string truthOf(const CellScene& scene, const Detection& d);
@@ -47,19 +45,30 @@ struct Rate {
 
 Rate rateOf(std::size_t hits, std::size_t trials);
 
+/** \brief How many clusters are strict and not doubles. */
+Rate precisionOf(const Counts& counts);
+
+/** \brief Share of the instances found times share of the clusters that are right, in percent. */
+double recallTimesPrecision(const Counts& counts);
+
 /** \brief Score of one method over many scenes. */
 class Score {
 public:
-  explicit Score(const ModelDatabase& database);
+  /** \param labels of the objects, in the order in which detections count them */
+  explicit Score(std::vector<std::string> labels);
 
   void add(const CellScene& scene, const std::vector<Detection>& detections);
+  /** \brief A line for each object and one for all. */
   std::string table() const;
-  std::string csv() const;
-  /** \brief Counts of each model in the order of the database. */
-  const std::vector<Counts>&
-  counts() const
+  /** \brief Names of the columns of csv(), but for its prefix. */
+  static std::string csvHeader();
+  /** \brief A line for each object and one for "all"; each begins with \p prefix. */
+  std::string csv(const std::string& prefix) const;
+  Counts all() const;
+  std::size_t
+  scenes() const
   {
-    return counts_;
+    return scenes_;
   }
   /** \brief Detections that are not strictly right, and doubles, per scene. */
   double falsePerScene() const;

@@ -178,6 +178,26 @@ placePile(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRando
     translate(item, {-(low[0] + high[0]) / 2, -(low[1] + high[1]) / 2, 0});
 }
 
+/** \brief Puts the first item somewhere and the others at their distance from it.
+ * \return false if one lies outside */
+bool
+placePairs(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRandom& random)
+{
+  for (auto& item : items) {
+    double x = random.uniform(-o.size / 2, o.size / 2), y = random.uniform(-o.size / 2, o.size / 2);
+    if (&item != &items.front()) {
+      const double way = o.distance_factor * std::min(item.radius, items.front().radius);
+      const double angle = random.uniform(0, 2 * M_PI);
+      x = items.front().centroid[0] + way * std::cos(angle);
+      y = items.front().centroid[1] + way * std::sin(angle);
+    }
+    translate(item, {x - item.centroid[0], y - item.centroid[1], 0});
+    if (!inside(item, o))
+      return false;
+  }
+  return true;
+}
+
 bool
 attempt(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRandom& random)
 {
@@ -185,6 +205,8 @@ attempt(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRandom&
     placePile(items, o, random);
     return std::all_of(items.begin(), items.end(), [&](const auto& i) { return inside(i, o); });
   }
+  if (o.spacing == Spacing::Pair)
+    return placePairs(items, o, random);
   for (std::size_t i = 0; i < items.size(); ++i)
     if (!placeApart(items, i, o, random))
       return false;

@@ -15,8 +15,8 @@ namespace {
 using interpretation::Indices;
 
 constexpr std::size_t kOrientations = 4;
-constexpr unsigned kRounds = 2;       ///< of histogram and support, each of which needs the other
-constexpr unsigned kRegroupings = 4;  ///< until the support of a histogram has settled
+constexpr unsigned kRounds = 2;      ///< of histogram and support, each of which needs the other
+constexpr unsigned kRegroupings = 4; ///< until the support of a histogram has settled
 constexpr unsigned kProbes = 128;
 constexpr std::size_t kFewestCells = 30; ///< as an interpretation asks for
 constexpr std::uint64_t kMostPairs = 4000000;
@@ -101,7 +101,8 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
   member.histogram = meanHistogram(all, model, seed, threads, member.features);
   double cells = 0;
   for (unsigned round = 0; round < kRounds; ++round) {
-    parallelFor(all.size(), threads, [&](std::size_t k, unsigned) { settleSupport(model, all[k]); });
+    parallelFor(all.size(), threads,
+                [&](std::size_t k, unsigned) { settleSupport(model, all[k]); });
     cells = 0;
     for (const auto& o : all) {
       if (o.support.size() < kFewestCells)

@@ -109,21 +109,3 @@ TEST_F(Generate, BadDataIsNamed)
   EXPECT_TRUE(ended(run("generate", {"-out", path("no/s.pcd"), "-density", "100", "cup"}), 2,
                     {"no/s.pcd"}));
 }
-
-TEST_F(Generate, EvaluateCountsWhatIsFound)
-{
-  for (const std::string method : {"dissertation", "explanation"}) {
-    const AppRun r = run("evaluate", {"-method", method, "-treatment", "exclude", "-scenes", "1",
-                                      "-density", "100000", "-leaf", "0.008", "-bins", "7",
-                                      "-pairs", "50000", "-csv", "bottle", "torus"});
-    ASSERT_TRUE(ended(r, 0, {"cells"})) << method;
-    const auto table = parseCsv(r.out);
-    ASSERT_EQ(table.size(), 3u);
-    EXPECT_EQ(table[0][0] + table[1][0] + table[2][0], "objectbottletorus");
-    EXPECT_EQ(table[1][1], "1") << "present";
-    if (method == "explanation") {
-      EXPECT_EQ(table[1][2] + table[2][2], "11") << "found";
-    }
-  }
-  EXPECT_TRUE(ended(run("evaluate", {"-size", "0.05", "bottle"}), 2, {"do not fit"}));
-}

@@ -131,6 +131,22 @@ TEST(SceneGenerator, PosturesTiltTheUprightAxis)
   EXPECT_EQ(seen.size(), 3u);
 }
 
+TEST(SceneGenerator, PairsStandAtTheirDistanceEvenIfTheyIntersect) // Fig. 5.5
+{
+  const std::vector<SceneItem> pair = {household()[0], household()[2]};
+  for (const double factor : {0.0, 0.5, 3.0}) {
+    auto options = sparse(3);
+    options.size = 2;
+    options.spacing = Spacing::Pair;
+    options.distance_factor = factor;
+    const auto scene = generateScene(pair, {}, options);
+    const double radius =
+        std::min(computeExtent(instance(scene, 0)).r_max, computeExtent(instance(scene, 1)).r_max);
+    const auto &a = scene.items[0].centroid, &b = scene.items[1].centroid;
+    EXPECT_NEAR(std::hypot(a[0] - b[0], a[1] - b[1]), factor * radius, 1e-4);
+  }
+}
+
 TEST(SceneGenerator, ItemsKeepTheDistanceOfTheirBoundingSpheres) // Eq. 5.22
 {
   for (std::uint64_t seed = 1; seed <= 10; ++seed)

@@ -148,8 +148,8 @@ TEST(Dissertation, ExclusionLeavesWhatIsNotInTheEmptyScene)
   const auto cells = reduced(sceneOf(Background::Plane).surflets);
   const auto away = cellsAwayFrom(cells, reduced(emptyBackground(options)), kLeaf);
   EXPECT_LT(away.size(), cells.size());
-  for (const auto i : away)
-    EXPECT_GT(cells.z[i], 0.003);
+  for (const auto i : away) // what looks up is above the table, what stands on it may look elsewhere
+    EXPECT_TRUE(cells.z[i] > 0.003 || cells.nz[i] < 0.75) << cells.z[i] << " " << cells.nz[i];
   const auto found = interpretByDissertation(cells.subset(away), models());
   EXPECT_FALSE(found.detections.empty());
   EXPECT_EQ(cellsAwayFrom(cells, {}, kLeaf).size(), cells.size());

@@ -44,7 +44,11 @@ enum class Spacing {
   Apart,
   /** \brief Pushed together in the middle: each object slides horizontally towards one of those
    * already there until it is SceneOptions::gap from meeting one. A gap of 0 makes them touch. */
-  Pile
+  Pile,
+  /** \brief Every centroid exactly distance_factor * min (r_i, r_0) beside that of the first item,
+   * in a random direction; items may intersect. For two items: the critical distance [Wahl 2007,
+   * Fig. 5.5]. */
+  Pair
 };
 
 /** \brief What the objects stand on. */

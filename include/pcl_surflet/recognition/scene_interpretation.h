@@ -131,14 +131,14 @@ struct ExplanationParameters {
   /** \brief Edge of the cells in the unit of the scene, if known: then the share of a model's
    * surface that was found counts. 0: unknown. */
   double leaf = 0;
-  double reach = 1.1;         ///< a place extends to this many r_max from its centre, >= 1
-  double place_spacing = 1.2; ///< between places, in r_mean of the smallest object, > 0
+  double reach = 1.1;               ///< a place extends to this many r_max from its centre, >= 1
+  double place_spacing = 1.2;       ///< between places, in r_mean of the smallest object, > 0
   std::size_t scan_cells = 128;     ///< cells of a place by which a model is tried, in [3, 4096]
   std::size_t settling_cells = 256; ///< the same for what is promising, in [3, 4096]
   unsigned recentrings = 3;         ///< times that a place moves to what supports the model, >= 1
   unsigned probes = 16; ///< cells of an explanation by which the support of a cell is judged, >= 1
   std::uint64_t features = 50000; ///< pairs by which an explanation is judged, >= 1
-  double min_fit = 0.72; ///< least intersection with the model's histogram, in [0, 1]
+  double min_fit = 0.72;          ///< least intersection with the model's histogram, in [0, 1]
   /** \brief Fit that is worth nothing, in [0, 1]: explanations are chosen to maximise the sum of
    * cells times (fit - junk_fit). */
   double junk_fit = 0.6;

@@ -21,8 +21,8 @@ namespace pcl_surflet {
  * \throws TrainingError if fewer than 30 cells support the model: take smaller cells
  * \throws std::invalid_argument for an unusable leaf */
 PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& trainer,
-                                              const std::string& label,
-                                              const SurfletSet& surflets, double leaf,
-                                              std::uint64_t seed = 1, unsigned threads = 0);
+                                              const std::string& label, const SurfletSet& surflets,
+                                              double leaf, std::uint64_t seed = 1,
+                                              unsigned threads = 0);
 
 } // namespace pcl_surflet

@@ -13,7 +13,7 @@ constexpr std::uint64_t kVoteStream = 0x766f7465ULL;
 constexpr std::uint64_t kLongStream = 0x6c6f6e67ULL;
 constexpr std::uint64_t kLongDraws = 200000;
 constexpr float kFewestLongPairs = 2000; ///< a bin of 1 % then has 20
-constexpr std::size_t kBlock = 256; ///< cells judged at a time by one thread
+constexpr std::size_t kBlock = 256;      ///< cells judged at a time by one thread
 
 /** \brief Is a pair more likely on a background model than on every object? */
 bool

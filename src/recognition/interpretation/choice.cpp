@@ -16,11 +16,13 @@ constexpr double kSameCells = 0.02;
 /** \brief Explanations of one model that share this part of the smaller one's cells are one. */
 constexpr double kSameExplanation = 0.6;
 constexpr unsigned kPolishings = 2;
+constexpr double kFirstChosen = 0.7; ///< share of the work, about
 
 /** \brief Division of the cells among explanations. */
 class Division {
 public:
-  explicit Division(Explaining& work) : work_(work), best_(work.scene.cells.size(), 0.f), owner_(best_.size(), kNobody)
+  explicit Division(Explaining& work)
+      : work_(work), best_(work.scene.cells.size(), 0.f), owner_(best_.size(), kNobody)
   {
   }
 
@@ -168,11 +170,10 @@ Choice::polish()
                 e.supported);
     });
     division_.divide(chosen_, round + 1 == kPolishings);
-    chosen_.erase(std::remove_if(chosen_.begin(), chosen_.end(),
-                                 [&](const Explanation& e) {
-                                   return e.cells.size() < p.steps.min_cluster;
-                                 }),
-                  chosen_.end());
+    chosen_.erase(
+        std::remove_if(chosen_.begin(), chosen_.end(),
+                       [&](const Explanation& e) { return e.cells.size() < p.steps.min_cluster; }),
+        chosen_.end());
   }
   dropWorthless();
 }
@@ -275,7 +276,9 @@ choose(Explaining& work, const std::vector<Segment>& candidates)
   Choice choice(work);
   choice.add(lookClosely(work, candidates));
   choice.polish();
-  for (unsigned round = 1; round < work.parameters.rounds; ++round) {
+  double done = kFirstChosen;
+  for (unsigned round = 1; round < work.parameters.rounds && work.progress.goesOn(done); ++round) {
+    done = (done + 1) / 2;
     const std::size_t before = choice.chosen().size();
     work.openExcept(choice.taken());
     const auto rest = lookClosely(work, candidates);

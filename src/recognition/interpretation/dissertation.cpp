@@ -116,8 +116,8 @@ cellsAwayFrom(const SurfletSet& cells, const SurfletSet& background, double dist
     bool is_background = false;
     for (const auto& r : near)
       for (std::uint32_t at = r.begin; at < r.end && !is_background; ++at)
-        is_background = haveLikeNormals(
-            cells, i, background, static_cast<std::size_t>(octree.indexAt(at)));
+        is_background =
+            haveLikeNormals(cells, i, background, static_cast<std::size_t>(octree.indexAt(at)));
     if (!is_background)
       away.push_back(i);
   }

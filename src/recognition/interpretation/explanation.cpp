@@ -1,4 +1,5 @@
 #include "explanation.h"
+#include "progress.h"
 
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/parallel.h"
@@ -13,6 +14,7 @@ namespace {
 
 /** \brief Segments whose few pairs fit less than this are not completed. */
 constexpr double kLeastRoughFit = 0.45;
+constexpr double kBackgroundKnown = 0.1; ///< share of the work, about
 constexpr unsigned kSettlings = 2;
 constexpr unsigned kCompletions = 2;
 constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
@@ -25,6 +27,11 @@ check(const ExplanationParameters& p)
     if (!holds)
       throw std::invalid_argument(std::string("pcl_surflet: ") + what);
   };
+  require(p.leaf >= 0 && std::isfinite(p.leaf), "leaf must be positive and finite, or 0");
+  require(p.uniform_vote_share > 0 && p.uniform_vote_share <= 1,
+          "uniform_vote_share must be in (0, 1]");
+  require(p.uniform_vote_radius > 0 && std::isfinite(p.uniform_vote_radius),
+          "uniform_vote_radius must be positive");
   require(p.reach >= 1 && std::isfinite(p.reach), "reach must be at least 1 and finite");
   require(p.place_spacing > 0 && std::isfinite(p.place_spacing), "place_spacing must be positive");
   require(p.scan_cells > 2 && p.scan_cells <= 4096, "scan_cells must be in [3, 4096]");
@@ -72,8 +79,8 @@ detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
 
 } // namespace
 
-Explaining::Explaining(const SceneData& s, const ExplanationParameters& p)
-    : scene(s), parameters(p), memory(resolveThreads(p.steps.threads))
+Explaining::Explaining(const SceneData& s, const ExplanationParameters& p, ProgressReport& r)
+    : scene(s), parameters(p), progress(r), memory(resolveThreads(p.steps.threads))
 {
   openExcept(std::vector<char>(s.cells.size(), 0));
 }
@@ -85,9 +92,9 @@ Explaining::openExcept(const std::vector<char>& taken)
   for (std::size_t i = 0; i < taken.size(); ++i)
     if (!taken[i] && !(background.size() == taken.size() && background[i]))
       left.push_back(static_cast<PointIndex>(i));
-  open.build({scene.cells.x.data(), scene.cells.y.data(), scene.cells.z.data(), 1,
-              scene.cells.size()},
-             &left);
+  open.build(
+      {scene.cells.x.data(), scene.cells.y.data(), scene.cells.z.data(), 1, scene.cells.size()},
+      &left);
 }
 
 Explanation
@@ -135,14 +142,20 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   SceneInterpretation result;
   result.diagnostics = emptyDiagnostics(database);
 
-  Explaining work(scene, p);
+  ProgressReport progress(p.steps.progress, result.diagnostics.cancelled);
+  if (!progress.goesOn(0))
+    return result;
+  Explaining work(scene, p, progress);
   if (p.steps.background != BackgroundTreatment::Exclude) {
     work.background = modelled ? voteForBackground(scene, work.open, p)
                                : voteForUniformBackground(scene, work.open, p);
     work.openExcept(std::vector<char>(cells.size(), 0));
   }
-  const auto candidates = scan(work);
-  for (auto& e : choose(work, candidates))
+  const auto candidates = progress.goesOn(kBackgroundKnown) ? scan(work) : std::vector<Segment>();
+  auto chosen = choose(work, candidates);
+  if (!progress.goesOn(1))
+    return result;
+  for (auto& e : chosen)
     result.detections.push_back(detectionOf(scene, std::move(e), p.steps.seed));
   for (const auto& d : result.detections)
     ++result.diagnostics.models[d.model].detections;

@@ -2,6 +2,7 @@
  * The parts of interpretation by explanation; internal, not installed. */
 #pragma once
 
+#include "progress.h"
 #include "support.h"
 
 namespace pcl_surflet {
@@ -13,18 +14,20 @@ struct Explanation {
   Centre centre{};
   std::vector<CellSupport> supported; ///< all cells that support it, whoever owns them
   Indices cells;                      ///< those of them that are its own, ascending
-  double fit = 0; ///< intersection of the cells' histogram with the model's
+  double fit = 0;                     ///< intersection of the cells' histogram with the model's
 };
 
 /** \brief What the parts of one interpretation share. */
 struct Explaining {
   const SceneData& scene;
   const ExplanationParameters& parameters;
+  ProgressReport& progress;
   std::vector<char> background;      ///< one entry a cell, or none
   LinearOctree open;                 ///< the cells that nothing explains yet
   std::vector<SupportMemory> memory; ///< one a thread
 
-  Explaining(const SceneData& scene, const ExplanationParameters& parameters);
+  Explaining(const SceneData& scene, const ExplanationParameters& parameters,
+             ProgressReport& progress);
 
   /** \brief Leaves those cells open that are neither taken nor background. */
   void openExcept(const std::vector<char>& taken);

@@ -14,9 +14,10 @@ namespace {
 constexpr double kRadiusClass = 1.3;
 /** \brief Rough segments of one model nearer than this share of its r_mean are the same. */
 constexpr double kSamePlace = 0.4;
-/** \brief A rough segment needs this intersection. Few pairs make it lower than a fit: 0.5 to 0.7 where the model
- * is right, 0.2 to 0.4 where it is not. */
+/** \brief A rough segment needs this intersection. Few pairs make it lower than a fit: 0.5 to 0.7
+ * where the model is right, 0.2 to 0.4 where it is not. */
 constexpr double kLeastRoughFit = 0.35;
+constexpr double kScanBegins = 0.1, kScanEnds = 0.5; ///< shares of the work, about
 
 /** \brief Middles of the occupied cubes of \p edge, in the order of their numbers. */
 std::vector<Centre>
@@ -57,8 +58,7 @@ radiusClasses(const Explaining& work)
   });
   std::vector<std::vector<std::size_t>> classes;
   for (const auto k : order) {
-    if (classes.empty() ||
-        work.radiusOf(classes.back().front()) > kRadiusClass * work.radiusOf(k))
+    if (classes.empty() || work.radiusOf(classes.back().front()) > kRadiusClass * work.radiusOf(k))
       classes.emplace_back();
     classes.back().push_back(k);
   }
@@ -106,7 +106,10 @@ tryEverywhere(Explaining& work, const std::vector<Centre>& places)
   const auto classes = radiusClasses(work);
   const std::size_t models = work.scene.models.objects;
   std::vector<Segment> all(places.size() * models);
+  work.progress.beginPart(kScanBegins, kScanEnds, places.size());
   parallelFor(places.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
+    if (!work.progress.goesOnInPart(worker))
+      return;
     SupportMemory& memory = work.memory[worker];
     for (const auto& members : classes) {
       drawSample(work.scene, work.open, places[i], work.radiusOf(members.front()),
@@ -126,8 +129,7 @@ scan(Explaining& work)
   double smallest = work.scene.models.all[0].model->r_mean;
   for (std::size_t k = 0; k < work.scene.models.objects; ++k)
     smallest = std::min(smallest, work.scene.models.all[k].model->r_mean);
-  const auto places =
-      placesOf(work.scene, work.open, work.parameters.place_spacing * smallest);
+  const auto places = placesOf(work.scene, work.open, work.parameters.place_spacing * smallest);
   auto found = best(work, tryEverywhere(work, places));
   for (unsigned round = 1; round < work.parameters.recentrings; ++round) {
     parallelFor(found.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {

@@ -40,7 +40,7 @@ fillSupport(const Histogram& penalised, const std::vector<float>& chance, double
 std::vector<float>
 chanceAngles(const Resolution& resolution)
 {
-  constexpr std::uint32_t kSurflets = 400; // 80,000 pairs: one per cent for a bin of average share
+  constexpr std::uint32_t kSurflets = 700; // 245,000 pairs: seven per cent for an average bin
   CounterRandom random(1);
   const auto direction = [&]() -> std::array<float, 3> {
     const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * kPi),
@@ -110,8 +110,7 @@ sceneModels(const ModelDatabase& database, bool with_background, double scale)
   const auto chance = chanceAngles(models.resolution);
   for (const auto role : {ModelRole::Object, ModelRole::Background}) {
     for (std::size_t i = 0; i < database.size(); ++i)
-      if (database[i].role == role && (role == ModelRole::Object || with_background))
-      {
+      if (database[i].role == role && (role == ModelRole::Object || with_background)) {
         models.all.push_back(sceneModel(database[i], h_min, scale, chance));
         models.all.back().index = i;
       }

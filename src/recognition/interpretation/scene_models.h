@@ -16,8 +16,8 @@ namespace interpretation {
 /** \brief Mark of a feature that a model cannot have: a pair longer than its delta_max. */
 constexpr std::uint32_t kBeyond = std::numeric_limits<std::uint32_t>::max();
 
-/** \brief Cells of edge s that a surface has per s^2, averaged over orientations (measured on bottle,
- * bunny, dragon and horse: 1.22 to 1.32). Less where walls are thinner than cells. */
+/** \brief Cells of edge s that a surface has per s^2, averaged over orientations (measured on
+ * bottle, bunny, dragon and horse: 1.22 to 1.32). Less where walls are thinner than cells. */
 constexpr double kCellsOfArea = 1.27;
 
 constexpr float kMostSupport = 3; ///< limit of a pair's support, nats
@@ -31,8 +31,8 @@ struct SceneModel {
   /** \brief Penalised H(b) per width of the delta intervals in the scene's unit scale: what is
    * comparable among models of different size. */
   std::vector<float> density;
-  float least_density = 0;   ///< of what the model cannot have
-  double expected_log = 0;   ///< mean log-likelihood of the model's own features
+  float least_density = 0; ///< of what the model cannot have
+  double expected_log = 0; ///< mean log-likelihood of the model's own features
   /** \brief ln of the penalised H(b) over the probability of the bin for surflets that have nothing
    * to do with each other: normals by chance, distances as on a sphere of diameter delta_max.
    * Limited to 3 nats either way, so that no single pair decides.
@@ -42,10 +42,10 @@ struct SceneModel {
   std::vector<float> support;
   float intervals_per_length = 0; ///< of delta in the scene's unit scale
   float last_row = 0;             ///< number of intervals of delta
-  double expected_support = 0; ///< mean of support over the model's own features
-  double expected_cells = 0;   ///< cells of the whole object; 0 if unknown
-  std::vector<float> border;   ///< squared borders of delta in the scene's unit scale
-  float longest = 0;         ///< delta_max squared in the scene's unit scale
+  double expected_support = 0;    ///< mean of support over the model's own features
+  double expected_cells = 0;      ///< cells of the whole object; 0 if unknown
+  std::vector<float> border;      ///< squared borders of delta in the scene's unit scale
+  float longest = 0;              ///< delta_max squared in the scene's unit scale
   std::uint32_t angular_bins = 0;
 
   bool

@@ -180,8 +180,8 @@ summary(const SceneData& scene, const Sample& sample, const std::vector<float>& 
   s.support /= total;
   for (double& c : s.centre)
     c /= total;
-  s.cells = total * static_cast<double>(sample.population) /
-            static_cast<double>(sample.cells.size());
+  s.cells =
+      total * static_cast<double>(sample.population) / static_cast<double>(sample.cells.size());
   return s;
 }
 
@@ -191,9 +191,9 @@ Indices
 cellsWithin(const LinearOctree& octree, const Centre& centre, double radius,
             std::vector<PlaceRange>& ranges)
 {
-  octree.regionRanges({static_cast<float>(centre[0]), static_cast<float>(centre[1]),
-                       static_cast<float>(centre[2])},
-                      radius, ranges);
+  octree.regionRanges(
+      {static_cast<float>(centre[0]), static_cast<float>(centre[1]), static_cast<float>(centre[2])},
+      radius, ranges);
   Indices cells;
   for (const auto& r : ranges)
     for (std::uint32_t at = r.begin; at < r.end; ++at)

@@ -35,13 +35,13 @@ struct SupportMemory {
 /** \brief The part of a sample that supports a model. */
 struct Segment {
   std::size_t model = 0;
-  Centre centre{};      ///< of the supporting cells
-  double cells = 0;     ///< estimated number of supporting cells in the ball
-  double support = 0;   ///< their mean support, nats per pair
+  Centre centre{};    ///< of the supporting cells
+  double cells = 0;   ///< estimated number of supporting cells in the ball
+  double support = 0; ///< their mean support, nats per pair
   /** \brief Intersection of their few pairs with the model's histogram; 0 for hopeless segments:
    * without support, or with too small a part of the model's cells. */
   double rough_fit = 0;
-  Indices core;         ///< the supporting cells of the sample
+  Indices core; ///< the supporting cells of the sample
 
   /** \brief Nats won by explaining these cells. */
   double
