@@ -2,6 +2,7 @@
  * Training of model banks: one model, many conditions. */
 #pragma once
 
+#include "pcl_surflet/core/pair_histogram.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 #include "pcl_surflet/recognition/model_bank.h"
 
@@ -43,9 +44,16 @@ private:
     double spacing = 0; ///< square root of the area per surflet
   };
 
+  /** \brief Histograms of disturbed samples: of many pairs, and of as many as a query has. */
+  struct Counted {
+    std::vector<PairHistogram> rich, like_queries;
+  };
+
   void addMembers(HistogramModel& model, const Base& base) const;
-  SurfletSet disturbed(const BankCondition& condition, const SurfletSet& sampling, double delta_max,
-                       double spacing, std::uint64_t seed) const;
+  void addCondition(HistogramModel& model, const Base& base, std::size_t condition) const;
+  void calibrateComplete(HistogramModel& model, const Base& base) const;
+  Counted count(const BankCondition& condition, const Base& base, double delta_max,
+                std::uint64_t seed) const;
 
   HistogramModelTrainer trainer_;
   ModelBank bank_;

@@ -5,6 +5,7 @@
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/core/pair_counting.h"
 #include "pcl_surflet/core/parallel.h"
+#include "pcl_surflet/recognition/histogram_classifier.h"
 #include "pcl_surflet/sensed_surface.h"
 #include "recognition/histogram_clusters.h"
 
@@ -25,6 +26,9 @@ constexpr std::uint64_t kPairs = 100000;
  * radius lie pi r^2 = 9 spacings squared. */
 constexpr double kEighthNeighbour = 1.69;
 
+/** \brief Floor of empty bins when misfits are measured; the default of a database. */
+const double kFloor = PenaltyParameters().floor;
+
 /** \brief Keeps the draws of banks apart from those of other things with the same seed. */
 constexpr std::uint64_t kBankStream = 0x62616e6bULL;
 
@@ -42,6 +46,50 @@ thinned(const SurfletSet& set, std::size_t count, std::uint64_t seed)
   order.resize(count);
   std::sort(order.begin(), order.end());
   return set.subset(order);
+}
+
+/** \brief The lengths that conditions need, in the unit of the data. */
+struct Lengths {
+  double delta_max, spacing;
+  double normal_radius; ///< in spacings
+};
+
+SurfletSet
+disturbed(const BankCondition& condition, const SurfletSet& sampling, const Lengths& lengths,
+          std::uint64_t seed)
+{
+  const double noise = condition.noise * lengths.delta_max;
+  SurfletSet set = sampling;
+  if (condition.view)
+    set = singleView(set, lengths.spacing, noise, mix64(seed + 1));
+  else if (noise > 0)
+    set = displacedAlongNormals(set, noise, mix64(seed + 1));
+  if (condition.visible < 1)
+    set = cutByRandomPlane(set, condition.visible, mix64(seed + 2));
+  if (condition.view || noise > 0)
+    set = withEstimatedNormals(set, lengths.normal_radius * lengths.spacing, 1).surflets;
+  return set;
+}
+
+/** \brief Mean of some misfits, and the multiple of it that 97.5 % of them stay below. */
+struct Calibration {
+  double mean = 0, limit = 0;
+};
+
+Calibration
+calibrated(std::vector<double> misfits)
+{
+  misfits.erase(
+      std::remove_if(misfits.begin(), misfits.end(), [](double m) { return !std::isfinite(m); }),
+      misfits.end());
+  if (misfits.empty())
+    return {};
+  const double mean =
+      std::accumulate(misfits.begin(), misfits.end(), 0.0) / static_cast<double>(misfits.size());
+  const auto rank = static_cast<std::size_t>(0.975 * static_cast<double>(misfits.size()));
+  std::nth_element(misfits.begin(), misfits.begin() + static_cast<std::ptrdiff_t>(rank),
+                   misfits.end());
+  return mean > 0 ? Calibration{mean, misfits[rank] / mean} : Calibration{};
 }
 
 } // namespace
@@ -91,49 +139,68 @@ ModelBankTrainer::train(const std::string& label, const TriangleMesh& mesh) cons
   return model;
 }
 
-SurfletSet
-ModelBankTrainer::disturbed(const BankCondition& condition, const SurfletSet& sampling,
-                            double delta_max, double spacing, std::uint64_t seed) const
+ModelBankTrainer::Counted
+ModelBankTrainer::count(const BankCondition& condition, const Base& base, double delta_max,
+                        std::uint64_t seed) const
 {
-  const double noise = condition.noise * delta_max;
-  SurfletSet set = sampling;
-  if (condition.view)
-    set = singleView(set, spacing, noise, mix64(seed + 1));
-  else if (noise > 0)
-    set = displacedAlongNormals(set, noise, mix64(seed + 1));
-  if (condition.visible < 1)
-    set = cutByRandomPlane(set, condition.visible, mix64(seed + 2));
-  if (condition.view || noise > 0)
-    set = withEstimatedNormals(set, bank_.normal_radius * spacing, 1).surflets;
-  return set;
+  const Resolution& resolution = trainer_.getResolution();
+  const std::vector<PairHistogram> none(std::size_t{samples_} * condition.members,
+                                        PairHistogram(resolution));
+  Counted counted{none, none};
+  parallelFor(none.size(), trainer_.getNumberOfThreads(), [&](std::size_t t, unsigned) {
+    const auto own = mix64(seed + t);
+    const PairSource source(disturbed(condition, base.samplings[t % base.samplings.size()],
+                                      {delta_max, base.spacing, bank_.normal_radius}, own));
+    counted.rich[t] = countDrawnPairs(source, resolution, delta_max, kPairs, mix64(own), 1);
+    counted.like_queries[t] =
+        countDrawnPairs(source, resolution, delta_max,
+                        HistogramClassifier::defaultFeatures(resolution), mix64(own + 3), 1);
+  });
+  return counted;
+}
+
+void
+ModelBankTrainer::addCondition(HistogramModel& model, const Base& base, std::size_t c) const
+{
+  const BankCondition& condition = bank_.conditions[c];
+  const auto counted = count(condition, base, model.delta_max,
+                             mix64(mix64(trainer_.getSeed() ^ kBankStream) ^ (c + 1)));
+  const auto groups = groupHistograms(counted.rich, condition.members);
+  if (groups.empty())
+    throw TrainingError("'" + model.label + "': the condition '" + condition.name(0, 1) +
+                        "' leaves nothing that has a feature; give more points or leave the "
+                        "condition out of the bank");
+  const auto calibration =
+      calibrated(leftOutMisfits(counted.like_queries, counted.rich, groups, kFloor));
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const auto h = groups[g].sum.normalized();
+    model.members.push_back({condition.name(g, groups.size()),
+                             std::vector<float>(h.begin(), h.end()), groups[g].sum.features,
+                             calibration.mean, calibration.limit});
+  }
+}
+
+void
+ModelBankTrainer::calibrateComplete(HistogramModel& model, const Base& base) const
+{
+  const auto counted =
+      count({}, base, model.delta_max, mix64(mix64(trainer_.getSeed() ^ kBankStream)));
+  ModelMember& complete = model.members.front();
+  const std::vector<double> h(complete.histogram.begin(), complete.histogram.end());
+  std::vector<double> misfits;
+  for (const auto& sample : counted.like_queries)
+    misfits.push_back(misfit(sample, h, kFloor));
+  const auto calibration = calibrated(misfits);
+  complete.misfit = calibration.mean;
+  complete.misfit_limit = calibration.limit;
 }
 
 void
 ModelBankTrainer::addMembers(HistogramModel& model, const Base& base) const
 {
-  const Resolution& resolution = trainer_.getResolution();
-  for (std::size_t c = 0; c < bank_.conditions.size(); ++c) {
-    const BankCondition& condition = bank_.conditions[c];
-    std::vector<PairHistogram> histograms(std::size_t{samples_} * condition.members,
-                                          PairHistogram(resolution));
-    parallelFor(histograms.size(), trainer_.getNumberOfThreads(), [&](std::size_t t, unsigned) {
-      const auto seed = mix64(mix64(mix64(trainer_.getSeed() ^ kBankStream) ^ (c + 1)) + t);
-      const SurfletSet set = disturbed(condition, base.samplings[t % base.samplings.size()],
-                                       model.delta_max, base.spacing, seed);
-      histograms[t] =
-          countDrawnPairs(PairSource(set), resolution, model.delta_max, kPairs, mix64(seed), 1);
-    });
-    const auto groups = groupHistograms(histograms, condition.members);
-    if (groups.empty())
-      throw TrainingError("'" + model.label + "': the condition '" + condition.name(0, 1) +
-                          "' leaves nothing that has a feature; give more points or leave the "
-                          "condition out of the bank");
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const auto h = groups[g].normalized();
-      model.members.push_back({condition.name(g, groups.size()),
-                               std::vector<float>(h.begin(), h.end()), groups[g].features});
-    }
-  }
+  calibrateComplete(model, base);
+  for (std::size_t c = 0; c < bank_.conditions.size(); ++c)
+    addCondition(model, base, c);
 }
 
 } // namespace pcl_surflet

@@ -1,5 +1,7 @@
 #include "recognition/histogram_clusters.h"
 
+#include "pcl_surflet/core/similarity.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -71,16 +73,16 @@ assigned(const std::vector<Roots>& all, const std::vector<Roots>& centres)
 
 } // namespace
 
-std::vector<PairHistogram>
+std::vector<HistogramGroup>
 groupHistograms(const std::vector<PairHistogram>& histograms, std::size_t groups)
 {
-  std::vector<const PairHistogram*> usable;
+  std::vector<std::size_t> usable;
   std::vector<Roots> all;
-  for (const auto& h : histograms) {
-    if (h.features == 0)
+  for (std::size_t i = 0; i < histograms.size(); ++i) {
+    if (histograms[i].features == 0)
       continue;
-    usable.push_back(&h);
-    all.push_back(h.normalized());
+    usable.push_back(i);
+    all.push_back(histograms[i].normalized());
     for (double& v : all.back())
       v = std::sqrt(v);
   }
@@ -99,15 +101,55 @@ groupHistograms(const std::vector<PairHistogram>& histograms, std::size_t groups
   }
   std::stable_sort(parts.begin(), parts.end(),
                    [](const auto& a, const auto& b) { return a.size() > b.size(); });
-  std::vector<PairHistogram> sums;
+  std::vector<HistogramGroup> found;
   for (const auto& part : parts) {
     if (part.empty())
       break;
-    sums.emplace_back(usable[part.front()]->resolution);
-    for (const auto i : part)
-      sums.back().merge(*usable[i]);
+    found.push_back({PairHistogram(histograms[usable[part.front()]].resolution), {}});
+    for (const auto i : part) {
+      found.back().sum.merge(histograms[usable[i]]);
+      found.back().parts.push_back(usable[i]);
+    }
   }
-  return sums;
+  return found;
+}
+
+double
+misfit(const PairHistogram& sample, const std::vector<double>& h, double floor)
+{
+  if (sample.features == 0)
+    return std::numeric_limits<double>::infinity();
+  const Histogram penalized = penalize(h, std::min(floor, 0.5 / static_cast<double>(h.size())));
+  const auto q = sample.normalized();
+  double sum = 0;
+  for (std::size_t b = 0; b < q.size(); ++b)
+    if (q[b] > 0)
+      sum += q[b] * std::log(q[b] / penalized[b]);
+  return sum;
+}
+
+std::vector<double>
+leftOutMisfits(const std::vector<PairHistogram>& samples,
+               const std::vector<PairHistogram>& histograms,
+               const std::vector<HistogramGroup>& groups, double floor)
+{
+  std::vector<double> found;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    double best = std::numeric_limits<double>::infinity();
+    for (const auto& group : groups) {
+      PairHistogram rest = group.sum;
+      if (std::binary_search(group.parts.begin(), group.parts.end(), i)) {
+        for (std::size_t b = 0; b < rest.counts.size(); ++b)
+          rest.counts[b] -= histograms[i].counts[b];
+        rest.features -= histograms[i].features;
+      }
+      if (rest.features > 0)
+        best = std::min(best, misfit(samples[i], rest.normalized(), floor));
+    }
+    if (std::isfinite(best))
+      found.push_back(best);
+  }
+  return found;
 }
 
 } // namespace pcl_surflet
