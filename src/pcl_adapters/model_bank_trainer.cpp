@@ -120,6 +120,10 @@ ModelBankTrainer::train(const std::string& label, const SurfletSet& surflets) co
     base.samplings.push_back(
         thinned(even, wanted, mix64(mix64(trainer_.getSeed() ^ kBankStream) + k)));
   base.spacing = surfaceDensity(base.samplings.front()).spacing / kEighthNeighbour;
+  if (!(base.spacing > 0))
+    throw TrainingError("'" + label + "': " + std::to_string(even.size()) +
+                        " points are too few to be trained under the conditions of a bank; give "
+                        "more points, or train without bank");
   addMembers(model, base);
   return model;
 }
