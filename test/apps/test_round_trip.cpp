@@ -315,3 +315,29 @@ TEST_F(RoundTrip, UnusableBanksAreTold)
   EXPECT_TRUE(ended(classify({"-unknown", "auto", path("ball.pcd")}), 2,
                     {path("db.pcd"), "-bank default"}));
 }
+
+TEST_F(RoundTrip, SearchListsTheMostSimilarOfAnySize)
+{
+  makeDatabase();
+  const auto search = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"-database", path("db.pcd")});
+    return run("search", arguments);
+  };
+  const AppRun r = search({"-csv", "-top", "2", path("cup.off"), path("ball.pcd")});
+  ASSERT_TRUE(ended(r, 0, {}));
+  const Table rows = parseCsv(r.out);
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"file", "rank", "label", "score"}));
+  EXPECT_EQ(rows[1][2], "cup");
+  EXPECT_EQ(rows[3][2], "ball");
+  EXPECT_EQ(search({"-exhaustive", "-csv", "-top", "2", path("cup.off"), path("ball.pcd")}).out,
+            r.out);
+  writeFile(path("classes.csv"), "ball,round\ncup,round\ndie,edged\n");
+  const Table figures = parseCsv(search({"-classes", path("classes.csv")}).out);
+  ASSERT_EQ(figures.size(), 15u);
+  EXPECT_EQ(figures[1], (std::vector<std::string>{"queries", "2"}));
+  writeFile(path("classes.csv"), "ball,round\ncup\n");
+  EXPECT_TRUE(ended(search({"-classes", path("classes.csv")}), 2, {"line 2", "comma"}));
+  writeFile(path("classes.csv"), "ball,round\ncup,round\n");
+  EXPECT_TRUE(ended(search({"-classes", path("classes.csv")}), 2, {"'die'", "add a line"}));
+}
