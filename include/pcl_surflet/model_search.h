@@ -29,8 +29,8 @@ struct SearchHit {
  * approximation: searchAll() does without.
  *
  * Takes 8 bytes a bin and member. Const methods may be called from several threads. Results depend
- * on models, their order and parameters alone, provided that no other thread draws from rand() while
- * models are added (FLANN does). */
+ * on models, their order and parameters alone, provided that no other thread draws from rand()
+ * while models are added (FLANN does). */
 class PCL_SURFLET_API ModelSearch {
 public:
   /** \brief \param resolution of all models
