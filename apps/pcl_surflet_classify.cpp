@@ -25,7 +25,7 @@ struct Options {
   Criterion criterion = Criterion::Likelihood;
   std::uint64_t features = 0, top = 3, seed = 1, threads = 0, neighbours = 0;
   double unknown = 0;
-  bool has_unknown = false, scale_normalized = false, csv = false;
+  bool has_unknown = false, calibrated = false, scale_normalized = false, csv = false;
   std::vector<std::string> files;
 };
 
@@ -60,15 +60,23 @@ addOptions(CommandLine& line, Options& o)
   line.count("-features", "N", "pairs drawn per query, default 2000 or twice the number of bins",
              o.features, 1, 1000000000);
   line.count("-top", "N", "models listed per file, default 3", o.top, 1, 1000000);
-  line.real("-unknown", "T",
-            "worst accepted value: surprise in nats (likelihood) or score; default none", o.unknown,
-            -kLargest, kLargest);
+  line.option("-unknown", "auto|T",
+              "auto: reject what fits worse than 97.5 % of the training samples (needs models of a "
+              "bank); T: worst accepted value, surprise in nats (likelihood) or score; default: "
+              "nothing is rejected",
+              [&o](const std::string& value) {
+                o.calibrated = value == "auto";
+                o.has_unknown = !o.calibrated;
+                if (o.has_unknown)
+                  o.unknown = parseReal("-unknown", value, -kLargest, kLargest);
+              });
   line.flag("-scale_normalized", "compare shapes regardless of size", o.scale_normalized);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
   addNeighbours(line, o.neighbours);
   line.flag("-csv",
-            "print a table with the columns file,answer,rank,label,score,posterior,surprise",
+            "print a table with the columns "
+            "file,answer,rank,label,score,posterior,surprise,condition,misfit",
             o.csv);
 }
 
@@ -78,14 +86,15 @@ readOptions(int argc, char** argv, Options& o)
 {
   CommandLine line(kProgram, "FILE...",
                    "Classifies files (PCD, PLY, OBJ, STL, OFF) against the models of a database "
-                   "and lists\nthe best ones with score, posterior probability and surprise; the "
-                   "answer is 'unknown'\nwhere no model is similar enough (see -unknown).");
+                   "and lists\nthe best ones with score, posterior probability, surprise and the "
+                   "condition that the model was\ntrained under (of the winner an estimate of the "
+                   "file's noise and missing parts); the answer is\n'unknown' where no model is "
+                   "similar enough (see -unknown).");
   addOptions(line, o);
   if (!line.parse(argc, argv))
     return false;
   line.require("-database");
   line.requireFiles(1, std::numeric_limits<std::size_t>::max());
-  o.has_unknown = line.given("-unknown");
   o.files = line.files();
   return true;
 }
@@ -100,6 +109,14 @@ classifierFor(const Options& o, const ModelDatabase& database)
   classifier.setScaleNormalized(o.scale_normalized);
   if (o.has_unknown)
     classifier.setUnknownThreshold(o.unknown);
+  if (!o.calibrated)
+    return classifier;
+  const auto limit = classifier.calibratedMisfitLimit();
+  if (!limit)
+    throw DataError("'" + o.database +
+                    "' has no model trained in a bank, which -unknown auto needs; train with -bank "
+                    "default, or give -unknown a number");
+  classifier.setMisfitLimit(limit);
   return classifier;
 }
 
@@ -131,7 +148,8 @@ printText(const Options& o, const std::string& path, const Classification& c)
   for (std::size_t r = 0; r < std::min<std::size_t>(o.top, c.ranking.size()); ++r) {
     const ModelMatch& m = c.ranking[r];
     std::cout << "  " << r + 1 << " " << m.label << "  score " << number(m.score) << "  posterior "
-              << number(m.posterior) << "  surprise " << number(m.surprise) << "\n";
+              << number(m.posterior) << "  surprise " << number(m.surprise) << "  as "
+              << (m.condition.empty() ? "trained" : m.condition) << "\n";
   }
 }
 
@@ -144,7 +162,8 @@ printCsv(const Options& o, const std::string& path, const Classification& c)
   for (std::size_t r = 0; r < std::min<std::size_t>(o.top, c.ranking.size()); ++r) {
     const ModelMatch& m = c.ranking[r];
     std::cout << begin << r + 1 << "," << csvField(m.label) << "," << number(m.score) << ","
-              << number(m.posterior) << "," << number(m.surprise) << "\n";
+              << number(m.posterior) << "," << number(m.surprise) << "," << csvField(m.condition)
+              << "," << number(m.relative_misfit) << "\n";
   }
 }
 
@@ -173,7 +192,7 @@ classify(int argc, char** argv)
   const HistogramClassifier classifier = classifierFor(o, database);
   const unsigned threads = resolveThreads(static_cast<unsigned>(o.threads));
   if (o.csv)
-    std::cout << "file,answer,rank,label,score,posterior,surprise\n";
+    std::cout << "file,answer,rank,label,score,posterior,surprise,condition,misfit\n";
   Progress progress(o.files.size());
   std::size_t failed = 0;
   // A few files at a time: answers come in order and soon, and memory stays bounded.

@@ -4,14 +4,16 @@
 
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/database_file.h"
-#include "pcl_surflet/recognition/histogram_model_trainer.h"
+#include "pcl_surflet/model_bank_trainer.h"
 #include "pcl_surflet/surface_file.h"
 
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <map>
+#include <sstream>
 
 #include <unistd.h>
 
@@ -26,6 +28,7 @@ struct Options {
   std::string database, label;
   bool background = false;
   Resolution resolution;
+  ModelBank bank = ModelBank::none();
   std::uint64_t pairs = 10000000, seed = 1, threads = 0, neighbours = 0;
   std::vector<std::string> files;
 };
@@ -47,6 +50,27 @@ parseResolution(const std::string& text)
   if (const auto problem = resolution.problem(); !problem.empty())
     throw UsageError("option -bins: " + problem);
   return resolution;
+}
+
+/** \brief What option -bank names. */
+ModelBank
+bankNamed(const std::string& name)
+{
+  if (name == "default")
+    return ModelBank::standard();
+  if (name == "none")
+    return ModelBank::none();
+  std::ifstream file(name);
+  std::ostringstream text;
+  if (!file || !(text << file.rdbuf()))
+    throw DataError("cannot read the bank '" + name +
+                    "': give default, none, or the path of a text file that is not empty");
+  try {
+    return ModelBank::parse(text.str());
+  }
+  catch (const ModelBankError& error) {
+    throw DataError("'" + name + "': " + error.what());
+  }
 }
 
 /** \brief Every file must give a model of its own. */
@@ -80,6 +104,10 @@ readOptions(int argc, char** argv, Options& o)
   line.flag("-background", "the models are background, to be told from objects", o.background);
   line.option("-bins", "A,B,C,D", "bins of alpha, beta, gamma, delta, default 5,5,5,5",
               [&o](const std::string& text) { o.resolution = parseResolution(text); });
+  line.option("-bank", "NAME|FILE",
+              "conditions that are trained beside the ideal one: default (noise, missing parts, "
+              "views; 29 histograms), none (default), or a text file of conditions",
+              [&o](const std::string& name) { o.bank = bankNamed(name); });
   line.count("-pairs", "N", "pairs drawn from a cloud, default 10000000 (meshes: all pairs)",
              o.pairs, 1, 1000000000000ULL);
   addSeed(line, o.seed);
@@ -142,7 +170,7 @@ noteLosses(const std::string& path, const SurfaceFile& file)
 }
 
 void
-trainFile(const Options& o, const HistogramModelTrainer& trainer, const std::string& path,
+trainFile(const Options& o, const ModelBankTrainer& trainer, const std::string& path,
           ModelDatabase& database)
 {
   SurfaceFileOptions loading;
@@ -156,9 +184,11 @@ trainFile(const Options& o, const HistogramModelTrainer& trainer, const std::str
       file.mesh ? trainer.train(label, *file.mesh) : trainer.train(label, file.surflets);
   noteLosses(path, file);
   const std::uint64_t features = model.members.front().features;
+  const std::size_t members = model.members.size();
   const bool replaced = database.replace(std::move(model));
   note(std::string(replaced ? "replaced" : "added") + " '" + label + "' (" +
-       (o.background ? "background" : "object") + ", " + std::to_string(features) + " features)");
+       (o.background ? "background" : "object") + ", " + std::to_string(features) + " features" +
+       (members > 1 ? ", " + std::to_string(members) + " members)" : ")"));
 }
 
 int
@@ -168,7 +198,7 @@ train(int argc, char** argv)
   if (!readOptions(argc, argv, o))
     return kOk;
   ModelDatabase database = openDatabase(o);
-  const HistogramModelTrainer trainer = trainerFor(o);
+  const ModelBankTrainer trainer(trainerFor(o), o.bank);
   Progress progress(o.files.size());
   std::size_t failed = 0;
   for (std::size_t i = 0; i < o.files.size(); ++i) {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 namespace pcl_surflet {
@@ -39,6 +40,74 @@ double
 dot(const Vec3& a, double x, double y, double z)
 {
   return a[0] * x + a[1] * y + a[2] * z;
+}
+
+/** \brief A set as a sensor sees it: across the picture, and towards the sensor. */
+struct PictureFrame {
+  Vec3 right, up, towards;
+
+  explicit PictureFrame(const Vec3& direction) : towards(direction)
+  {
+    const auto cross = [](const Vec3& a, const Vec3& b) {
+      return Vec3{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+    };
+    right = cross(towards, std::abs(towards[0]) < 0.7 ? Vec3{1, 0, 0} : Vec3{0, 1, 0});
+    const double length = std::sqrt(dot(right, right[0], right[1], right[2]));
+    for (double& c : right)
+      c /= length;
+    up = cross(towards, right);
+  }
+};
+
+using Pixel = std::pair<std::int64_t, std::int64_t>;
+
+/** \brief The foremost height seen in every pixel of a set. */
+class DepthBuffer {
+public:
+  DepthBuffer(const SurfletSet& set, const PictureFrame& frame, double pixel)
+      : set_(set), frame_(frame), pixel_(pixel)
+  {
+    for (std::size_t i = 0; i < set.size(); ++i) {
+      const auto [at, is_new] = foremost_.try_emplace(pixelOf(i), height(i));
+      at->second = std::max(at->second, height(i));
+    }
+  }
+
+  /** \brief How far surflet \p i lies behind the foremost one of its pixel. */
+  double
+  behind(std::size_t i) const
+  {
+    return foremost_.at(pixelOf(i)) - height(i);
+  }
+
+private:
+  double
+  height(std::size_t i) const
+  {
+    return dot(frame_.towards, set_.x[i], set_.y[i], set_.z[i]);
+  }
+  Pixel
+  pixelOf(std::size_t i) const
+  {
+    const auto index = [this](double v) {
+      return static_cast<std::int64_t>(std::floor(std::clamp(v / pixel_, -1e15, 1e15)));
+    };
+    return {index(dot(frame_.right, set_.x[i], set_.y[i], set_.z[i])),
+            index(dot(frame_.up, set_.x[i], set_.y[i], set_.z[i]))};
+  }
+
+  const SurfletSet& set_;
+  const PictureFrame& frame_;
+  double pixel_;
+  std::map<Pixel, double> foremost_;
+};
+
+/** \brief How far a surface that is seen at this cosine may reach back within one pixel. */
+double
+slopeAllowance(double cosine, double pixel)
+{
+  constexpr double kSteepest = 3; // steeper surfaces would hide nothing
+  return 1.5 * pixel * std::min(kSteepest, std::sqrt(1 - cosine * cosine) / cosine);
 }
 
 } // namespace
@@ -98,6 +167,31 @@ cutByRandomPlane(const SurfletSet& set, double visible, std::uint64_t seed)
     indices.push_back(heights[k].second);
   std::sort(indices.begin(), indices.end());
   return set.subset(indices);
+}
+
+SurfletSet
+singleView(const SurfletSet& set, double spacing, double noise, std::uint64_t seed)
+{
+  constexpr double kGrazing = 0.1;
+  if (!(spacing > 0) || !std::isfinite(spacing))
+    throw std::invalid_argument("pcl_surflet: the spacing of a view must be positive");
+  CounterRandom random(seed);
+  const PictureFrame frame(randomDirection(random));
+  const double pixel = 1.5 * spacing;
+  const DepthBuffer depth(set, frame, pixel);
+  SurfletSet seen;
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    Surflet s = set[i];
+    const double cosine = std::min(1.0, dot(frame.towards, s.nx, s.ny, s.nz));
+    if (!(cosine > kGrazing) || !(depth.behind(i) <= slopeAllowance(cosine, pixel) + 2 * spacing))
+      continue;
+    const double d = random.uniform(-noise, noise);
+    s.x = static_cast<float>(s.x + d * frame.towards[0]);
+    s.y = static_cast<float>(s.y + d * frame.towards[1]);
+    s.z = static_cast<float>(s.z + d * frame.towards[2]);
+    seen.push_back(s);
+  }
+  return seen;
 }
 
 TriangleMesh

@@ -22,9 +22,10 @@ struct FieldSpec {
   const char* name;
   std::uint8_t type;
   std::uint32_t count; ///< 0: number of bins
+  bool optional = false;
 };
 
-const std::array<FieldSpec, 15> kFields = {{{"format_version", PCLPointField::UINT32, 1},
+const std::array<FieldSpec, 17> kFields = {{{"format_version", PCLPointField::UINT32, 1},
                                             {"label", PCLPointField::UINT8, kTextBytes},
                                             {"condition", PCLPointField::UINT8, kTextBytes},
                                             {"role", PCLPointField::UINT32, 1},
@@ -38,6 +39,8 @@ const std::array<FieldSpec, 15> kFields = {{{"format_version", PCLPointField::UI
                                             {"features", PCLPointField::FLOAT64, 1},
                                             {"tau", PCLPointField::FLOAT64, 1},
                                             {"floor", PCLPointField::FLOAT64, 1},
+                                            {"misfit", PCLPointField::FLOAT64, 1, true},
+                                            {"misfit_limit", PCLPointField::FLOAT64, 1, true},
                                             {"histogram", PCLPointField::FLOAT32, 0}}};
 
 /** \brief One row of the table: a member of a model. */
@@ -46,7 +49,7 @@ struct Row {
   std::array<char, kTextBytes> label{}, condition{};
   std::array<std::uint32_t, 4> resolution{};
   double delta_max = 0, r_mean = 0, r_max = 0, r_min = 0, surface_area = 0, features = 0, tau = 0,
-         floor = 0;
+         floor = 0, misfit = 0, misfit_limit = 0;
   std::vector<float> histogram;
 
   /** \brief Where each field of kFields lives, in that order. */
@@ -67,6 +70,8 @@ struct Row {
             &features,
             &tau,
             &floor,
+            &misfit,
+            &misfit_limit,
             histogram.data()};
   }
 };
@@ -114,6 +119,8 @@ rowOf(const HistogramModel& model, std::size_t member, const PenaltyParameters& 
   row.features = static_cast<double>(model.members[member].features);
   row.tau = penalty.tau;
   row.floor = penalty.floor;
+  row.misfit = model.members[member].misfit;
+  row.misfit_limit = model.members[member].misfit_limit;
   row.histogram = model.members[member].histogram;
   return row;
 }
@@ -138,7 +145,7 @@ public:
       : path_(path), table_(table)
   {
     for (std::size_t f = 0; f < kFields.size(); ++f)
-      field_[f] = &find(kFields[f]);
+      field_[f] = find(kFields[f]);
     bins_ = field_.back()->count;
   }
 
@@ -156,14 +163,16 @@ public:
     const auto places = row.places();
     const auto* begin = table_.data.data() + index * table_.point_step;
     for (std::size_t f = 0; f < field_.size(); ++f)
-      std::memcpy(places[f], begin + field_[f]->offset,
-                  field_[f]->count *
-                      static_cast<std::size_t>(pcl::getFieldSize(field_[f]->datatype)));
+      if (field_[f] != nullptr)
+        std::memcpy(places[f], begin + field_[f]->offset,
+                    field_[f]->count *
+                        static_cast<std::size_t>(pcl::getFieldSize(field_[f]->datatype)));
     return row;
   }
 
 private:
-  const PCLPointField&
+  /** \brief The field, or null if it may be missing: files from before it was invented. */
+  const PCLPointField*
   find(const FieldSpec& spec) const
   {
     for (const auto& field : table_.fields) {
@@ -173,8 +182,10 @@ private:
         refuse("its field '" + field.name +
                "' has another type or count than format version 1 has; was it written by "
                "pcl_surflet?");
-      return field;
+      return &field;
     }
+    if (spec.optional)
+      return nullptr;
     refuse(std::string("it has no field '") + spec.name +
            "'; is it a database made by pcl_surflet_train?");
   }
@@ -219,7 +230,7 @@ modelOf(const Row& row, const TableReader& reader, const std::string& where)
   model.r_min = row.r_min;
   model.surface_area = row.surface_area;
   model.members.push_back({textOf(row.condition, reader, where), row.histogram,
-                           static_cast<std::uint64_t>(row.features)});
+                           static_cast<std::uint64_t>(row.features), row.misfit, row.misfit_limit});
   return model;
 }
 

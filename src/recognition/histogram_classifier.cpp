@@ -4,6 +4,7 @@
 #include "pcl_surflet/core/parallel.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace pcl_surflet {
@@ -11,29 +12,17 @@ namespace {
 
 constexpr std::uint64_t kFewestFeatures = 2000;
 
-/** \brief Mean of ln H over the features, in a fixed order of additions. */
+/** \brief n ln n. Most counts are small, and their logarithms known. */
 double
-meanOver(const Histogram& log_h, const std::vector<std::uint32_t>& bins)
+timesOwnLogarithm(std::uint32_t n)
 {
-  double sum[4] = {0, 0, 0, 0}; // four chains of additions run at once
-  std::size_t i = 0;
-  for (; i + 4 <= bins.size(); i += 4)
-    for (std::size_t k = 0; k < 4; ++k)
-      sum[k] += log_h[bins[i + k]];
-  for (; i < bins.size(); ++i)
-    sum[0] += log_h[bins[i]];
-  return ((sum[0] + sum[1]) + (sum[2] + sum[3])) / static_cast<double>(bins.size());
-}
-
-Histogram
-histogramOf(const std::vector<std::uint32_t>& bins, std::size_t size)
-{
-  Histogram q(size, 0.0);
-  for (const auto b : bins)
-    q[b] += 1;
-  for (double& v : q)
-    v /= static_cast<double>(bins.size());
-  return q;
+  static const auto table = [] {
+    std::array<double, 256> t{};
+    for (std::size_t i = 2; i < t.size(); ++i)
+      t[i] = static_cast<double>(i) * std::log(static_cast<double>(i));
+    return t;
+  }();
+  return n < table.size() ? table[n] : n * std::log(static_cast<double>(n));
 }
 
 /** \brief Softmax of the log-likelihoods of all features.
@@ -65,6 +54,83 @@ struct HistogramClassifier::Candidate {
   double mean_log = 0; ///< mean log-likelihood per feature, as a density
 };
 
+/** \brief The drawn features, counted for one delta_max after the other. */
+class HistogramClassifier::Query {
+public:
+  explicit Query(const FeatureSample& sample) : sample_(sample) {}
+
+  /** \brief Maps delta with a model's \p delta_max [Wahl 2007, Eq. 3.4].
+   * \param whole also makes the histogram q of all bins */
+  void
+  map(double delta_max, bool whole)
+  {
+    if (delta_max == mapped_with_)
+      return;
+    mapped_with_ = delta_max;
+    sample_.bins(delta_max, bins_);
+    count();
+    if (whole)
+      makeHistogram();
+  }
+
+  /** \brief Number of features. */
+  double
+  size() const
+  {
+    return static_cast<double>(sample_.size());
+  }
+
+  /** \brief Sum of Q ln Q over the bins, in nats. */
+  double
+  negentropy() const
+  {
+    double sum = 0;
+    for (const auto& [bin, count] : filled)
+      sum += timesOwnLogarithm(count);
+    return sum / size() - std::log(size());
+  }
+
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> filled; ///< bins with their counts
+  Histogram q; ///< normalised, if map() was asked for it
+
+private:
+  /** \brief Fills counts_ and filled. Two rows of counters: features of one bin often follow each
+   * other, and the second would wait for the first. The list is written without a branch that
+   * nobody can predict. */
+  void
+  count()
+  {
+    counts_.assign(static_cast<std::size_t>(sample_.resolution.bins()), 0);
+    other_counts_.assign(counts_.size(), 0);
+    for (std::size_t i = 0; i + 1 < bins_.size(); i += 2) {
+      ++counts_[bins_[i]];
+      ++other_counts_[bins_[i + 1]];
+    }
+    if (bins_.size() % 2 == 1)
+      ++counts_[bins_.back()];
+    filled.resize(counts_.size());
+    std::size_t n = 0;
+    for (std::uint32_t b = 0; b < counts_.size(); ++b) {
+      counts_[b] += other_counts_[b];
+      filled[n] = {b, counts_[b]};
+      n += counts_[b] > 0;
+    }
+    filled.resize(n);
+  }
+
+  void
+  makeHistogram()
+  {
+    q.resize(counts_.size());
+    std::transform(counts_.begin(), counts_.end(), q.begin(),
+                   [this](auto count) { return count / size(); });
+  }
+
+  const FeatureSample& sample_;
+  std::vector<std::uint32_t> bins_, counts_, other_counts_;
+  double mapped_with_ = 0;
+};
+
 HistogramClassifier::HistogramClassifier(const ModelDatabase& database)
     : members_(database.penalized()), resolution_(database.resolution()),
       h_min_(database.empty() ? 0 : database.penaltyMinimum()),
@@ -72,17 +138,44 @@ HistogramClassifier::HistogramClassifier(const ModelDatabase& database)
 {
   if (database.empty())
     throw DatabaseError("the database has no models to classify with");
-  for (std::size_t i = 0; i < database.size(); ++i)
-    models_.push_back({database[i].label, database[i].delta_max});
+  for (std::size_t i = 0; i < database.size(); ++i) {
+    const auto& model = database[i];
+    models_.push_back({model.label, model.delta_max, infos_.size(), model.members.size()});
+    LogTable table{model.members.size(), {}};
+    for (std::size_t b = 0; b < static_cast<std::size_t>(resolution_.bins()); ++b)
+      for (std::size_t k = 0; k < table.members; ++k)
+        table.rows.push_back(static_cast<float>(members_[infos_.size() + k].log_h[b]));
+    logs_.push_back(std::move(table));
+    for (const auto& member : model.members)
+      infos_.push_back({member.condition, member.misfit, member.misfit_limit});
+  }
+}
+
+std::uint64_t
+HistogramClassifier::defaultFeatures(const Resolution& resolution)
+{
+  return std::max<std::uint64_t>(kFewestFeatures,
+                                 2 * static_cast<std::uint64_t>(resolution.bins()));
+}
+
+std::optional<double>
+HistogramClassifier::calibratedMisfitLimit() const
+{
+  double sum = 0;
+  std::size_t measured = 0;
+  for (const auto& info : infos_) {
+    sum += info.misfit_limit;
+    measured += info.misfit_limit > 0;
+  }
+  if (measured == 0)
+    return std::nullopt;
+  return sum / static_cast<double>(measured);
 }
 
 std::uint64_t
 HistogramClassifier::getNumberOfFeatures() const
 {
-  if (features_ > 0)
-    return features_;
-  return std::max<std::uint64_t>(kFewestFeatures,
-                                 2 * static_cast<std::uint64_t>(resolution_.bins()));
+  return features_ > 0 ? features_ : defaultFeatures(resolution_);
 }
 
 bool
@@ -94,6 +187,8 @@ HistogramClassifier::better(double a, double b) const
 bool
 HistogramClassifier::accepted(const ModelMatch& match) const
 {
+  if (misfit_limit_ && match.relative_misfit > *misfit_limit_)
+    return false;
   if (!threshold_)
     return true;
   if (criterion_ == Criterion::Likelihood)
@@ -124,40 +219,57 @@ HistogramClassifier::score(const PenalizedHistogram& p, const Histogram& q, doub
   return mean_log;
 }
 
-std::vector<HistogramClassifier::Candidate>
-HistogramClassifier::candidates(const FeatureSample& sample, double query_delta_max) const
+void
+HistogramClassifier::meanLogs(const Query& query, std::size_t model, std::vector<float>& mean) const
 {
-  const bool likelihood =
-      criterion_ == Criterion::Likelihood || criterion_ == Criterion::NormalizedLikelihood;
-  std::vector<Candidate> found(models_.size());
-  std::vector<std::uint32_t> bins;
-  Histogram q;
-  double mapped_with = 0;
-  for (const auto& p : members_) {
-    const auto& info = models_[p.model];
-    const double delta_max = scale_normalized_ ? query_delta_max : info.delta_max;
-    if (delta_max != mapped_with) { // Eq. 3.4: the model's own delta_max
-      sample.bins(delta_max, bins);
-      if (!likelihood)
-        q = histogramOf(bins, p.h.size());
-      mapped_with = delta_max;
-    }
-    const double raw = meanOver(p.log_h, bins);
-    const double density = scale_normalized_ ? 0 : std::log(info.delta_max / largest_delta_);
-    Candidate c;
-    c.mean_log = raw - density;
-    c.match = {p.model, p.member, info.label, score(p, q, raw), p.expected_log - raw, 0};
-    if (criterion_ == Criterion::Likelihood)
-      c.match.score = c.mean_log;
-    if (p.member == 0 || better(c.match.score, found[p.model].match.score))
-      found[p.model] = std::move(c);
+  const LogTable& table = logs_[model];
+  mean.assign(table.members, 0);
+  for (const auto& [bin, count] : query.filled) {
+    const float* row = table.rows.data() + bin * table.members;
+    const auto weight = static_cast<float>(count);
+    for (std::size_t k = 0; k < table.members; ++k)
+      mean[k] += weight * row[k];
   }
-  return found;
+  for (float& m : mean)
+    m /= static_cast<float>(query.size());
+}
+
+HistogramClassifier::Candidate
+HistogramClassifier::bestMember(const Query& query, std::size_t model,
+                                std::vector<float>& means) const
+{
+  const ModelInfo& info = models_[model];
+  const double density = scale_normalized_ ? 0 : std::log(info.delta_max / largest_delta_);
+  meanLogs(query, model, means);
+  Candidate best;
+  for (std::size_t k = 0; k < info.members; ++k) {
+    const double raw = static_cast<double>(means[k]);
+    const double value = criterion_ == Criterion::Likelihood
+                             ? raw - density
+                             : score(members_[info.first_member + k], query.q, raw);
+    if (k > 0 && !better(value, best.match.score))
+      continue;
+    best.match.member = k;
+    best.match.score = value;
+    best.mean_log = raw - density;
+  }
+  const std::size_t at = info.first_member + best.match.member;
+  const double raw = best.mean_log + density;
+  best.match.model = model;
+  best.match.label = info.label;
+  best.match.condition = infos_[at].condition;
+  best.match.surprise = members_[at].expected_log - raw;
+  best.match.misfit = std::max(0.0, query.negentropy() - raw);
+  if (infos_[at].misfit > 0)
+    best.match.relative_misfit = best.match.misfit / infos_[at].misfit;
+  return best;
 }
 
 Classification
 HistogramClassifier::classify(const SurfletSet& query) const
 {
+  const bool likelihood =
+      criterion_ == Criterion::Likelihood || criterion_ == Criterion::NormalizedLikelihood;
   Classification answer;
   const PairSource source(query);
   const auto sample = drawFeatures(source, resolution_, getNumberOfFeatures(), seed_, 1);
@@ -165,15 +277,19 @@ HistogramClassifier::classify(const SurfletSet& query) const
   answer.rejected = sample.rejected;
   if (sample.size() == 0)
     return answer;
-  auto found = candidates(sample, scale_normalized_ ? farthestDistance(query) : 0);
+  const double query_delta = scale_normalized_ ? farthestDistance(query) : 0;
+  Query features(sample);
   std::vector<double> mean_log;
-  for (const auto& c : found)
-    mean_log.push_back(c.mean_log);
-  const auto p = posteriors(mean_log, sample.size(), query.size());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    found[i].match.posterior = p[i];
-    answer.ranking.push_back(std::move(found[i].match));
+  std::vector<float> means;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    features.map(scale_normalized_ ? query_delta : models_[m].delta_max, !likelihood);
+    auto candidate = bestMember(features, m, means);
+    mean_log.push_back(candidate.mean_log);
+    answer.ranking.push_back(std::move(candidate.match));
   }
+  const auto p = posteriors(mean_log, sample.size(), query.size());
+  for (std::size_t m = 0; m < p.size(); ++m)
+    answer.ranking[m].posterior = p[m];
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [this](const auto& a, const auto& b) { return better(a.score, b.score); });
   answer.unknown = !accepted(answer.ranking.front());

@@ -44,6 +44,9 @@ memberProblem(const ModelMember& member, const Resolution& resolution)
   if (member.histogram.size() != static_cast<std::size_t>(resolution.bins()))
     return "the histogram has " + std::to_string(member.histogram.size()) + " bins, resolution " +
            resolution.toString() + " needs " + std::to_string(resolution.bins());
+  for (const double v : {member.misfit, member.misfit_limit})
+    if (!std::isfinite(v) || v < 0)
+      return "its misfit is negative or not finite";
   double sum = 0;
   for (const float v : member.histogram) {
     if (!std::isfinite(v) || v < 0)

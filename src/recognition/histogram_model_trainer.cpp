@@ -28,23 +28,6 @@ evenedOut(const SurfletSet& set, const SurfaceDensity& density)
   return reduceToCells(set, density.widest).cells;
 }
 
-SurfletSet
-evenCloud(const std::string& label, const SurfletSet& set, UnevenDensity treatment)
-{
-  if (treatment == UnevenDensity::Accept)
-    return set;
-  const SurfaceDensity density = surfaceDensity(set);
-  if (density.contrast < kUnevenContrast)
-    return set;
-  if (treatment == UnevenDensity::Refuse)
-    throw TrainingError(
-        "'" + label + "': the surface density varies by a factor of " +
-        formatted(density.contrast) +
-        " and dense areas would dominate the model; reduce the cloud to cells of about " +
-        formatted(density.widest) + " first, or allow evening out");
-  return evenedOut(set, density);
-}
-
 } // namespace
 
 TrainingError::~TrainingError() = default;
@@ -74,6 +57,23 @@ HistogramModelTrainer::setMeshSampling(std::size_t surflets, unsigned samplings)
   mesh_samplings_ = samplings;
 }
 
+SurfletSet
+HistogramModelTrainer::evened(const std::string& label, const SurfletSet& set) const
+{
+  if (uneven_ == UnevenDensity::Accept)
+    return set;
+  const SurfaceDensity density = surfaceDensity(set);
+  if (density.contrast < kUnevenContrast)
+    return set;
+  if (uneven_ == UnevenDensity::Refuse)
+    throw TrainingError(
+        "'" + label + "': the surface density varies by a factor of " +
+        formatted(density.contrast) +
+        " and dense areas would dominate the model; reduce the cloud to cells of about " +
+        formatted(density.widest) + " first, or allow evening out");
+  return evenedOut(set, density);
+}
+
 HistogramModel
 HistogramModelTrainer::train(const std::string& label, const SurfletSet& surflets) const
 {
@@ -81,7 +81,7 @@ HistogramModelTrainer::train(const std::string& label, const SurfletSet& surflet
     throw TrainingError(
         "'" + label + "': " + std::to_string(surflets.size()) +
         " oriented points are too few to train a model; are points or normals not finite?");
-  const SurfletSet even = evenCloud(label, surflets, uneven_);
+  const SurfletSet even = evened(label, surflets);
   const double delta_max = farthestDistance(even);
   if (!(delta_max > 0))
     throw TrainingError("'" + label + "': all points coincide");

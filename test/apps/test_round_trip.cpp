@@ -65,7 +65,9 @@ TEST_F(RoundTrip, TrainInfoClassify)
   const Table answers = parseCsv(r.out);
   ASSERT_EQ(answers.size(), 4u);
   EXPECT_EQ(answers[0], (std::vector<std::string>{"file", "answer", "rank", "label", "score",
-                                                  "posterior", "surprise"}));
+                                                  "posterior", "surprise", "condition", "misfit"}));
+  EXPECT_EQ(answers[1][7], "complete");
+  EXPECT_EQ(answers[1][8], "0") << "not measured without a bank";
   EXPECT_EQ(answers[1][1], "ball");
   EXPECT_EQ(answers[2][1], "die");
   EXPECT_EQ(answers[3][1], "cup");
@@ -279,4 +281,63 @@ TEST_F(RoundTrip, EveryShapeCanBeTrained)
   }
   ASSERT_TRUE(ended(train(files), 0, {}));
   EXPECT_EQ(info().size(), 14u);
+}
+
+TEST_F(RoundTrip, BanksAreTrainedReportedAndRejectStrangers)
+{
+  makeShapes();
+  writeFile(path("bank.txt"), "noise 3 # percent\nvisible 40 members 2\n");
+  ASSERT_TRUE(ended(train({"-bank", path("bank.txt"), path("die.ply"), path("cup.off")}), 0,
+                    {"4 members"}));
+  const Table table = info();
+  ASSERT_EQ(table.size(), 9u);
+  EXPECT_EQ(table[1][3], "complete");
+  EXPECT_EQ(table[2][3], "noise 3 %");
+  EXPECT_EQ(table[4][3], "visible 40 % (2 of 2)");
+  const Table rows = parseCsv(
+      classify({"-csv", "-top", "1", "-unknown", "auto", path("cup.off"), path("ball.pcd")}).out);
+  ASSERT_EQ(rows.size(), 3u);
+  EXPECT_EQ(rows[1][1], "cup");
+  EXPECT_EQ(rows[1][7], "complete");
+  EXPECT_GT(std::stod(rows[1][8]), 0);
+  EXPECT_EQ(rows[2][1], "unknown");
+  EXPECT_NE(classify({path("cup.off")}).out.find("as complete"), std::string::npos);
+}
+
+TEST_F(RoundTrip, UnusableBanksAreTold)
+{
+  makeDatabase();
+  writeFile(path("bank.txt"), "noise 1\nvisible much\n");
+  EXPECT_TRUE(ended(train({"-bank", path("bank.txt"), path("ball.pcd")}), 2,
+                    {path("bank.txt"), "line 2", "'much'"}));
+  EXPECT_TRUE(ended(train({"-bank", path("no.txt"), path("ball.pcd")}), 2,
+                    {path("no.txt"), "default, none"}));
+  EXPECT_TRUE(ended(classify({"-unknown", "auto", path("ball.pcd")}), 2,
+                    {path("db.pcd"), "-bank default"}));
+}
+
+TEST_F(RoundTrip, SearchListsTheMostSimilarOfAnySize)
+{
+  makeDatabase();
+  const auto search = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"-database", path("db.pcd")});
+    return run("search", arguments);
+  };
+  const AppRun r = search({"-csv", "-top", "2", path("cup.off"), path("ball.pcd")});
+  ASSERT_TRUE(ended(r, 0, {}));
+  const Table rows = parseCsv(r.out);
+  ASSERT_EQ(rows.size(), 5u);
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"file", "rank", "label", "score"}));
+  EXPECT_EQ(rows[1][2], "cup");
+  EXPECT_EQ(rows[3][2], "ball");
+  EXPECT_EQ(search({"-exhaustive", "-csv", "-top", "2", path("cup.off"), path("ball.pcd")}).out,
+            r.out);
+  writeFile(path("classes.csv"), "ball,round\ncup,round\ndie,edged\n");
+  const Table figures = parseCsv(search({"-classes", path("classes.csv")}).out);
+  ASSERT_EQ(figures.size(), 15u);
+  EXPECT_EQ(figures[1], (std::vector<std::string>{"queries", "2"}));
+  writeFile(path("classes.csv"), "ball,round\ncup\n");
+  EXPECT_TRUE(ended(search({"-classes", path("classes.csv")}), 2, {"line 2", "comma"}));
+  writeFile(path("classes.csv"), "ball,round\ncup,round\n");
+  EXPECT_TRUE(ended(search({"-classes", path("classes.csv")}), 2, {"'die'", "add a line"}));
 }

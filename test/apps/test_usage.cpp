@@ -7,7 +7,7 @@ namespace {
 
 const char* const kApps[] = {"train",    "classify",       "feature",  "info",       "reduce",
                              "generate", "generate_shape", "evaluate", "experiment", "interpret",
-                             "view"};
+                             "view",     "search"};
 
 struct WrongLine {
   const char* app;
@@ -45,12 +45,16 @@ TEST(Usage, HelpNamesEveryOption)
 {
   const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
       {"train",
-       {"-database", "-label", "-background", "-bins", "-pairs", "-seed", "-threads", "-k"}},
+       {"-database", "-label", "-background", "-bins", "-bank", "-pairs", "-seed", "-threads",
+        "-k"}},
       {"classify",
        {"-database", "-criterion", "-features", "-top", "-unknown", "-scale_normalized", "-seed",
         "-threads", "-k", "-csv"}},
       {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
       {"info", {"-csv"}},
+      {"search",
+       {"-database", "-classes", "-top", "-features", "-shortlist", "-exhaustive", "-seed",
+        "-threads", "-k", "-csv"}},
       {"reduce", {"-leaf", "-min_normal", "-csv"}},
       {"evaluate",
        {"-method",   "-treatment", "-scenes",   "-bins",       "-leaf",         "-pairs",

@@ -83,3 +83,55 @@ TEST(Conditions, ScaledMeshHasTheDiameter)
   EXPECT_NEAR(farthestDistance(vertices), 10, 1e-4);
   EXPECT_THROW(scaledToDiameter(TriangleMesh{}, 1), std::invalid_argument);
 }
+
+TEST(Conditions, AViewShowsWhatFacesTheSensorAndNothingHides)
+{
+  const auto ball = sampleShape(Shape::sphere(1), 5000, 1);
+  const double spacing = std::sqrt(4 * M_PI / 5000);
+  const auto seen = singleView(ball, spacing, 0, 4);
+  // Half of the ball faces the sensor, a share of 0.1 of that at a grazing angle.
+  EXPECT_NEAR(static_cast<double>(seen.size()) / 5000, 0.45, 0.01);
+  const auto e = computeExtent(seen);
+  const double length = std::hypot(e.centroid[0], e.centroid[1], e.centroid[2]);
+  EXPECT_NEAR(length, 0.55, 0.01) << "a cap of heights 0.1 to 1";
+}
+
+TEST(Conditions, AViewHidesWhatLiesBehind)
+{
+  // A small ball within a large one, both evenly sampled, is seen from nowhere.
+  const auto even = [](double radius, std::size_t n) {
+    return sampleIsoMesh(meshOfShape(Shape::sphere(radius), radius / 20), n, 1);
+  };
+  SurfletSet both = even(1, 4000);
+  const std::size_t large = both.size();
+  const auto small = even(0.5, 1000);
+  for (std::size_t i = 0; i < small.size(); ++i)
+    both.push_back(small[i]);
+  const auto seen = singleView(both, std::sqrt(4 * M_PI / 4000), 0, 4);
+  std::size_t inner = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    inner += std::hypot(seen.x[i], seen.y[i], seen.z[i]) < 0.75;
+  EXPECT_LT(inner, 10u);
+  EXPECT_NEAR(static_cast<double>(seen.size() - inner) / static_cast<double>(large), 0.45, 0.02);
+}
+
+TEST(Conditions, NoiseOfAViewIsAlongTheLineOfSight)
+{
+  const auto ball = sampleShape(Shape::sphere(1), 5000, 1);
+  const auto clean = singleView(ball, 0.05, 0, 4), noisy = singleView(ball, 0.05, 0.01, 4);
+  ASSERT_EQ(clean.size(), noisy.size());
+  const auto e = computeExtent(clean); // towards the sensor
+  const double length = std::hypot(e.centroid[0], e.centroid[1], e.centroid[2]);
+  double largest = 0;
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    const double d[3] = {double(noisy.x[i]) - clean.x[i], double(noisy.y[i]) - clean.y[i],
+                         double(noisy.z[i]) - clean.z[i]};
+    const double along =
+        (d[0] * e.centroid[0] + d[1] * e.centroid[1] + d[2] * e.centroid[2]) / length;
+    EXPECT_NEAR(std::abs(along), std::hypot(d[0], d[1], d[2]), 1e-3);
+    largest = std::max(largest, std::abs(along));
+  }
+  EXPECT_NEAR(largest, 0.01, 2e-4);
+  EXPECT_EQ(clean.nx, noisy.nx);
+  EXPECT_THROW(singleView(ball, 0, 0, 1), std::invalid_argument);
+}

@@ -26,6 +26,16 @@ PCL_SURFLET_API SurfletSet displacedAlongNormals(const SurfletSet& set, double a
 PCL_SURFLET_API SurfletSet cutByRandomPlane(const SurfletSet& set, double visible,
                                             std::uint64_t seed);
 
+/** \brief What a distant sensor in a random direction sees of the set: surflets that face it and
+ * that no other one hides, each moved along the line of sight by a random distance, uniform in
+ * [-\p noise, \p noise]. Normals stay.
+ *
+ * Hidden is what lies behind the foremost surflet of its cell of 1.5 \p spacing, by more than the
+ * surface's own slope explains; surflets seen at less than 6 degrees are left out.
+ * \param spacing distance between neighbouring surflets, > 0, else std::invalid_argument */
+PCL_SURFLET_API SurfletSet singleView(const SurfletSet& set, double spacing, double noise,
+                                      std::uint64_t seed);
+
 /** \brief The mesh scaled so that its farthest vertices are \p diameter apart.
  * \throws std::invalid_argument if the vertices have no extent */
 PCL_SURFLET_API TriangleMesh scaledToDiameter(const TriangleMesh& mesh, double diameter);

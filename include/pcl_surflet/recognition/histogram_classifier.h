@@ -17,10 +17,19 @@ struct ModelMatch {
   std::size_t model = 0;  ///< index in the database
   std::size_t member = 0; ///< the model's best member
   std::string label;
+  std::string condition; ///< what the best member was trained under ("noise 4 %"): of the winner,
+                         ///< an estimate of the query's noise and visibility
   double score = 0;     ///< value of the criterion; which end is better: smallerIsBetter()
   double surprise = 0;  ///< nats per feature by which the log-likelihood falls short of what the
                         ///< model expects of its own features; near 0 for a perfect match
   double posterior = 0; ///< probability of the model among those of the database, in [0, 1]
+  /** \brief Kullback-Leibler divergence of the query from the best member, sum Q ln (Q / H), in
+   * nats per feature, >= 0: what the features tell against the model. Fewer features make it
+   * larger. */
+  double misfit = 0;
+  /** \brief The misfit as a multiple of what the member's own training samples have; near 1 for
+   * the right model. 0 if that was not measured in training (models of a bank are). */
+  double relative_misfit = 0;
 };
 
 /** \brief The answer to one query. */
@@ -49,10 +58,10 @@ struct Classification {
  *   std::cout << best->label << " " << best->posterior << "\n";
  * \endcode
  *
- * A model of several members responds with its best member. Where models differ in size, the
- * likelihood is that of a density: bin masses are divided by the width of the model's delta
- * intervals (score minus ln (delta_max / largest delta_max of the database)); with equal delta_max
- * the criterion is exactly that of the dissertation.
+ * A model of several members (ModelBankTrainer) responds with its best member. Where models differ
+ * in size, the likelihood is that of a density: bin masses are divided by the width of the model's
+ * delta intervals (score minus ln (delta_max / largest delta_max of the database)); with equal
+ * delta_max the criterion is exactly that of the dissertation.
  *
  * Background models compete like objects; their label is then the answer.
  * Const methods may be called from several threads. One seed gives one result. */
@@ -81,6 +90,8 @@ public:
     features_ = features;
   }
   std::uint64_t getNumberOfFeatures() const;
+  /** \brief 2000, or twice the number of bins if that is more. */
+  static std::uint64_t defaultFeatures(const Resolution& resolution);
   void
   setSeed(std::uint64_t seed)
   {
@@ -101,6 +112,19 @@ public:
   {
     threshold_ = threshold;
   }
+  /** \brief Takes a query for unknown if the winner's relative misfit exceeds \p limit. Stands
+   * noise and missing parts far better than a threshold of the surprise, but needs models trained
+   * in a bank and the default number of features. No limit by default; a winner that was trained
+   * without bank passes. */
+  void
+  setMisfitLimit(std::optional<double> limit)
+  {
+    misfit_limit_ = limit;
+  }
+  /** \brief A limit from the training data alone: the mean over the members of what 97.5 % of the
+   * samples stay below that were left out of a member's histogram; nothing if no member was trained
+   * in a bank. */
+  std::optional<double> calibratedMisfitLimit() const;
   /** \brief Compares shapes regardless of size: query and models are scaled to one diameter
    * [Wahl 2007, Sec. 3.6.9]. Default off. */
   void
@@ -121,17 +145,33 @@ private:
   struct ModelInfo {
     std::string label;
     double delta_max;
+    std::size_t first_member; ///< in members_
+    std::size_t members;
+  };
+  struct MemberInfo {
+    std::string condition;
+    double misfit, misfit_limit; ///< of ModelMember
   };
 
+  /** \brief Logarithms of one model's members, those of a bin next to each other: a query of few
+   * different bins is compared with all members in one pass. */
+  struct LogTable {
+    std::size_t members = 0;
+    std::vector<float> rows; ///< bin by bin
+  };
+  class Query;
   struct Candidate;
 
-  std::vector<Candidate> candidates(const FeatureSample& sample, double query_delta_max) const;
+  void meanLogs(const Query& query, std::size_t model, std::vector<float>& mean) const;
+  Candidate bestMember(const Query& query, std::size_t model, std::vector<float>& means) const;
   double score(const PenalizedHistogram& p, const Histogram& q, double mean_log) const;
   bool better(double a, double b) const;
   bool accepted(const ModelMatch& match) const;
 
   std::vector<ModelInfo> models_;
+  std::vector<MemberInfo> infos_; ///< parallel to members_
   std::vector<PenalizedHistogram> members_;
+  std::vector<LogTable> logs_; ///< parallel to models_
   Resolution resolution_;
   double h_min_;
   double largest_delta_;
@@ -139,7 +179,7 @@ private:
   std::uint64_t features_ = 0;
   std::uint64_t seed_ = 1;
   unsigned threads_ = 0;
-  std::optional<double> threshold_;
+  std::optional<double> threshold_, misfit_limit_;
   bool scale_normalized_ = false;
 };
 

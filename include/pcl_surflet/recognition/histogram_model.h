@@ -18,6 +18,11 @@ struct ModelMember {
   std::string condition;        ///< e.g. "complete", "noise 1 %"; at most 63 bytes
   std::vector<float> histogram; ///< H(b) [Wahl 2007, Eq. 2.23]: >= 0, sum 1
   std::uint64_t features = 0;   ///< number of features counted
+  /** \brief Mean misfit (ModelMatch::misfit) of samples that were left out of the histogram, each
+   * of HistogramClassifier::defaultFeatures(); 0 if it was not measured. */
+  double misfit = 0;
+  /** \brief Largest multiple of it among 97.5 % of those samples; 0 if not measured. */
+  double misfit_limit = 0;
 };
 
 /** \brief Model M = (H, delta_max, r_mean, r_max) [Wahl 2007, Eq. 2.24] with r_min (Eq. 6.1).

@@ -54,11 +54,21 @@ public:
   {
     seed_ = seed;
   }
+  std::uint64_t
+  getSeed() const
+  {
+    return seed_;
+  }
   /** \brief Threads, 0 (default): all. */
   void
   setNumberOfThreads(unsigned threads)
   {
     threads_ = threads;
+  }
+  unsigned
+  getNumberOfThreads() const
+  {
+    return threads_;
   }
   /** \brief Default EvenOut. */
   void
@@ -75,6 +85,11 @@ public:
   /** \brief Surflets per sampling of a mesh, default 4500 (the dissertation: 3,500-5,500), and
    * number of samplings, default 5. \throws std::invalid_argument if below 2 or 1 */
   void setMeshSampling(std::size_t surflets, unsigned samplings);
+  std::size_t
+  getMeshSurflets() const
+  {
+    return mesh_surflets_;
+  }
 
   /** \brief Trains from an oriented cloud: k drawn pairs, or all if there are no more.
    *
@@ -87,6 +102,10 @@ public:
    * each, histograms added bin by bin, then normalised. \throws TrainingError with
    * TriangleMesh::problem() */
   HistogramModel train(const std::string& label, const TriangleMesh& mesh) const;
+
+  /** \brief The surflets that train() uses of a cloud: evened out if need be. \throws TrainingError
+   * as setUnevenDensity() says, naming \p label */
+  SurfletSet evened(const std::string& label, const SurfletSet& surflets) const;
 
 private:
   HistogramModel finish(const std::string& label, const PairHistogram& histogram,

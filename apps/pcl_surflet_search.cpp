@@ -1,0 +1,205 @@
+// Finds the models of a large collection that resemble a file, and scores collections with classes.
+
+#include "app_common.h"
+
+#include "pcl_surflet/model_search.h"
+#include "pcl_surflet/recognition/retrieval_figures.h"
+#include "pcl_surflet/surface_file.h"
+
+#include <fstream>
+#include <iostream>
+#include <limits>
+#include <map>
+
+using namespace pcl_surflet;
+using namespace pcl_surflet::apps;
+
+namespace {
+
+constexpr const char* kProgram = "pcl_surflet_search";
+
+/** Surflets drawn from a mesh to make a query of it. */
+constexpr std::size_t kMeshSurflets = 4500;
+
+struct Options {
+  std::string database, classes;
+  std::uint64_t features = 0, top = 10, seed = 1, threads = 0, neighbours = 0, shortlist = 0;
+  bool exhaustive = false, csv = false;
+  std::vector<std::string> files;
+};
+
+/** \return false if help was asked for */
+bool
+readOptions(int argc, char** argv, Options& o)
+{
+  CommandLine line(kProgram, "FILE...",
+                   "Lists the models of a database that resemble files (PCD, PLY, OBJ, STL, OFF) "
+                   "most,\nregardless of size; or, with -classes, takes every model as a query and "
+                   "prints\nnearest-neighbour, first-tier and second-tier rates and the precision "
+                   "over the recall.");
+  line.text("-database", "DB.pcd", "the database (required)", o.database);
+  line.text("-classes", "FILE.csv", "score the collection: a table of label,class per line",
+            o.classes);
+  line.count("-top", "N", "models listed per file, default 10", o.top, 1, 1000000);
+  line.count("-features", "N", "pairs drawn per query, default 2000 or twice the number of bins",
+             o.features, 1, 1000000000);
+  line.count("-shortlist", "N", "histograms compared by likelihood, default 100", o.shortlist, 1,
+             100000000);
+  line.flag("-exhaustive", "compare with every model, without index", o.exhaustive);
+  addSeed(line, o.seed);
+  addThreads(line, o.threads);
+  addNeighbours(line, o.neighbours);
+  line.flag("-csv", "print a table with the columns file,rank,label,score", o.csv);
+  if (!line.parse(argc, argv))
+    return false;
+  line.require("-database");
+  line.requireFiles(o.classes.empty() ? 1 : 0,
+                    o.classes.empty() ? std::numeric_limits<std::size_t>::max() : 0);
+  o.files = line.files();
+  return true;
+}
+
+ModelSearch
+searchFor(const Options& o, const ModelDatabase& database)
+{
+  ModelSearch search(database);
+  search.setNumberOfFeatures(o.features);
+  search.setSeed(o.seed);
+  if (o.shortlist > 0)
+    search.setShortlist(o.shortlist);
+  return search;
+}
+
+void
+searchFile(const Options& o, const ModelSearch& search, const std::string& path)
+{
+  SurfaceFileOptions loading;
+  loading.estimate_normals = static_cast<int>(o.neighbours);
+  loading.threads = static_cast<unsigned>(o.threads);
+  const SurfletSet query = surfletsOf(loadSurface(path, loading), kMeshSurflets, o.seed);
+  const auto hits = o.exhaustive ? search.searchAll(query, o.top) : search.search(query, o.top);
+  if (hits.empty())
+    throw DataError("no pair of its points has a feature; give a cloud of at least two different "
+                    "points");
+  if (!o.csv)
+    std::cout << path << ":\n";
+  for (std::size_t r = 0; r < hits.size(); ++r)
+    if (o.csv)
+      std::cout << csvField(path) << "," << r + 1 << "," << csvField(hits[r].label) << ","
+                << number(hits[r].score) << "\n";
+    else
+      std::cout << "  " << r + 1 << " " << hits[r].label << "  score " << number(hits[r].score)
+                << "\n";
+}
+
+/** \brief Class of every label. */
+std::map<std::string, std::string>
+readClasses(const std::string& path)
+{
+  std::ifstream file(path);
+  if (!file)
+    throw DataError("cannot read the classes '" + path + "': check the path and the permissions");
+  std::map<std::string, std::string> classes;
+  std::string line;
+  for (std::size_t number = 1; std::getline(file, line); ++number) {
+    if (!line.empty() && line.back() == '\r')
+      line.pop_back();
+    if (line.empty())
+      continue;
+    const auto comma = line.rfind(',');
+    if (comma == std::string::npos || comma == 0 || comma + 1 == line.size())
+      throw DataError("'" + path + "', line " + std::to_string(number) +
+                      ": not a label and a class with a comma between them");
+    classes[line.substr(0, comma)] = line.substr(comma + 1);
+  }
+  return classes;
+}
+
+/** \brief The class of every model, in order. */
+std::vector<std::string>
+classesOf(const ModelDatabase& database, const std::string& path)
+{
+  const auto classes = readClasses(path);
+  std::vector<std::string> all;
+  for (std::size_t i = 0; i < database.size(); ++i) {
+    const auto at = classes.find(database[i].label);
+    if (at == classes.end())
+      throw DataError("'" + path + "' has no class for the model '" + database[i].label +
+                      "'; add a line");
+    all.push_back(at->second);
+  }
+  return all;
+}
+
+void
+printFigures(const RetrievalFigures& figures)
+{
+  std::cout << "figure,value\nqueries," << figures.queries << "\nnearest neighbour,"
+            << number(figures.nearest_neighbour) << "\nfirst tier," << number(figures.first_tier)
+            << "\nsecond tier," << number(figures.second_tier) << "\n";
+  for (std::size_t i = 0; i < figures.precision.size(); ++i)
+    std::cout << "precision at recall " << number(static_cast<double>(i + 1) / 10.0) << ","
+              << number(figures.precision[i]) << "\n";
+}
+
+/** \brief Every model's first histogram searches the whole collection, itself left out. */
+void
+scoreCollection(const Options& o, const ModelDatabase& database, const ModelSearch& search)
+{
+  const auto classes = classesOf(database, o.classes);
+  std::map<std::string, std::size_t> sizes;
+  for (const auto& name : classes)
+    ++sizes[name];
+  std::vector<std::vector<std::string>> ranked(classes.size());
+  std::vector<std::size_t> class_sizes;
+  for (std::size_t i = 0; i < classes.size(); ++i) {
+    class_sizes.push_back(sizes[classes[i]]);
+    for (const auto& hit : search.searchAll(database[i].members.front().histogram, classes.size()))
+      if (hit.model != i)
+        ranked[i].push_back(classes[hit.model]);
+  }
+  const auto figures = retrievalFigures(classes, ranked, class_sizes);
+  if (figures.queries == 0)
+    throw DataError("'" + o.classes + "': no class has two models; there is nothing to score");
+  printFigures(figures);
+}
+
+int
+searchFiles(const Options& o, const ModelSearch& search)
+{
+  if (o.csv)
+    std::cout << "file,rank,label,score\n";
+  std::size_t failed = 0;
+  for (const auto& path : o.files) {
+    try {
+      searchFile(o, search, path);
+    }
+    catch (const std::exception& error) {
+      complain(std::string(kProgram) + ": " + about(path, error.what()));
+      ++failed;
+    }
+  }
+  return failed > 0 ? kBadData : kOk;
+}
+
+int
+search(int argc, char** argv)
+{
+  Options o;
+  if (!readOptions(argc, argv, o))
+    return kOk;
+  const ModelDatabase database = readDatabase(o.database);
+  const ModelSearch index = searchFor(o, database);
+  if (o.classes.empty())
+    return searchFiles(o, index);
+  scoreCollection(o, database, index);
+  return kOk;
+}
+
+} // namespace
+
+int
+main(int argc, char** argv)
+{
+  return runMain(kProgram, [&] { return search(argc, argv); });
+}
