@@ -1,0 +1,23 @@
+/** \file
+ * PCL's descriptors as recognisers. */
+#pragma once
+
+#include "experiment/recogniser.h"
+#include "experiment/trials.h"
+
+namespace pcl_surflet {
+namespace apps {
+
+/** \brief The descriptors named in \p names (peerDescriptors()), each trained with kTrainingSamples
+ * samples an object and compared by the metric that recognises most of two further *training*
+ * samples per object and setting of \p settings: no metric is chosen on test data.
+ * \throws UsageError if a name is unknown, DataError if a descriptor fails on every
+ * training sample */
+Recognisers peers(const Training& training, const std::vector<std::string>& names,
+                  const std::vector<Setting>& settings);
+
+/** \brief Names of all peers, separated by commas. */
+std::string peerNames();
+
+} // namespace apps
+} // namespace pcl_surflet
