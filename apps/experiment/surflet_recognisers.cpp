@@ -14,12 +14,25 @@ namespace {
 /** \brief Share of all pairs of a query that the dissertation draws. */
 constexpr double kShareOfPairs = 5e-5;
 
+constexpr const char *kByDefaults = ", defaults", *kFilledBins = "kullback, filled bins";
+
 HistogramClassifier
 classifierOf(const ModelDatabase& database, Criterion criterion)
 {
   HistogramClassifier classifier(database);
   classifier.setCriterion(criterion);
   return classifier;
+}
+
+/** \brief How many features to draw from \p query: a share of all its pairs, or \p otherwise if the
+ * share is 0. */
+std::uint64_t
+featuresOf(const SurfletSet& query, double share_of_pairs, std::uint64_t otherwise)
+{
+  if (share_of_pairs == 0)
+    return otherwise;
+  const auto m = static_cast<double>(query.size());
+  return static_cast<std::uint64_t>(std::max(1.0, share_of_pairs * m * (m - 1) / 2));
 }
 
 class HistogramRecogniser : public Recogniser {
@@ -37,10 +50,8 @@ public:
   {
     if (share_of_pairs_ == 0)
       return timed(classifier_, query);
-    const auto m = static_cast<double>(query.size());
     HistogramClassifier classifier = classifier_;
-    classifier.setNumberOfFeatures(
-        static_cast<std::uint64_t>(std::max(1.0, share_of_pairs_ * m * (m - 1) / 2)));
+    classifier.setNumberOfFeatures(featuresOf(query, share_of_pairs_, 0));
     return timed(classifier, query);
   }
 
@@ -66,8 +77,9 @@ private:
  * Q is zero. The library's takes the limit of Q ln Q and floors ln Q. */
 class KullbackOfFilledBins : public Recogniser {
 public:
-  explicit KullbackOfFilledBins(const ModelDatabase& database)
-      : Recogniser("kullback, filled bins"), members_(database.penalized()),
+  KullbackOfFilledBins(const std::string& name, const ModelDatabase& database,
+                       double share_of_pairs)
+      : Recogniser(name), share_of_pairs_(share_of_pairs), members_(database.penalized()),
         resolution_(database.resolution()), h_min_(database.penaltyMinimum()),
         features_(HistogramClassifier(database).getNumberOfFeatures())
   {
@@ -79,7 +91,8 @@ public:
   classify(const SurfletSet& query) const override
   {
     const double start = threadSeconds();
-    const auto sample = drawFeatures(PairSource(query), resolution_, features_, 1, 1);
+    const auto sample = drawFeatures(PairSource(query), resolution_,
+                                     featuresOf(query, share_of_pairs_, features_), 1, 1);
     Answer answer;
     double best = 0;
     for (const auto& member : members_) {
@@ -108,6 +121,7 @@ private:
     return kullbackLeibler(h, q, h_min_);
   }
 
+  double share_of_pairs_;
   std::vector<PenalizedHistogram> members_;
   std::vector<double> delta_max_;
   Resolution resolution_;
@@ -170,6 +184,7 @@ dissertationCriteria(const ModelDatabase& database)
   for (const Criterion c : tableCriteria())
     all.push_back(std::make_unique<HistogramRecogniser>(criterionName(c), classifierOf(strict, c),
                                                         kShareOfPairs));
+  all.push_back(std::make_unique<KullbackOfFilledBins>(kFilledBins, strict, kShareOfPairs));
   return all;
 }
 
@@ -178,9 +193,10 @@ defaultCriteria(const ModelDatabase& database)
 {
   Recognisers all;
   for (const Criterion c : tableCriteria())
-    all.push_back(std::make_unique<HistogramRecogniser>(
-        std::string(criterionName(c)) + ", defaults", classifierOf(database, c)));
-  all.push_back(std::make_unique<KullbackOfFilledBins>(database));
+    all.push_back(std::make_unique<HistogramRecogniser>(criterionName(c) + std::string(kByDefaults),
+                                                        classifierOf(database, c)));
+  all.push_back(
+      std::make_unique<KullbackOfFilledBins>(kFilledBins + std::string(kByDefaults), database, 0));
   return all;
 }
 
@@ -193,8 +209,7 @@ likelihoodRecogniser(const std::string& name, const ModelDatabase& database)
 Recognisers
 ours(const Training& training)
 {
-  Recognisers all;
-  all.push_back(likelihoodRecogniser("likelihood", trainObjects(training)));
+  Recognisers all = defaultCriteria(trainObjects(training));
   all.push_back(std::make_unique<HistogramRecogniser>(
       "likelihood, peers' data", classifierOf(trainOnSamples(training), Criterion::Likelihood), 0,
       Normals::Estimated));

@@ -15,11 +15,11 @@ const std::vector<Criterion>& tableCriteria();
 ModelDatabase trainObjects(const Training& training, const Resolution& resolution = {});
 
 /** \brief The six criteria as the dissertation ran them: 0.005 % of a query's pairs drawn
- * [Wahl 2007, Sec. 3.6.2], empty bins a tau-th of the rarest bin with tau = 1 (Eq. 3.20). */
+ * [Wahl 2007, Sec. 3.6.2], empty bins as full as the rarest (Eq. 3.20 with tau = 1). And
+ * Kullback-Leibler without the bins that the query left empty. */
 Recognisers dissertationCriteria(const ModelDatabase& database);
 
-/** \brief The six criteria with HistogramClassifier's defaults: 2,000 features, floor 1e-5; and
- * Kullback-Leibler without the bins that the query left empty. */
+/** \brief The same seven with HistogramClassifier's defaults: 2,000 features, floor 1e-5. */
 Recognisers defaultCriteria(const ModelDatabase& database);
 
 /** \brief The likelihood with the defaults, named \p name. */
