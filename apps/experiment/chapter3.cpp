@@ -167,7 +167,8 @@ drawCriteria(const Rates& rates, const std::string& directory)
 
 const char* const kAxisNames[] = {"1st axis", "2nd axis", "3rd axis"};
 
-/** \brief Factors of one axis, drawn from intervals of [0.4, 2] [Wahl 2007, Sec. 3.6.8]. */
+} // namespace
+
 std::vector<Setting>
 elongationSettings(std::uint64_t intervals)
 {
@@ -186,6 +187,8 @@ elongationSettings(std::uint64_t intervals)
     }
   return all;
 }
+
+namespace {
 
 std::string
 drawElongation(const Rates& rates, const std::string& directory)
@@ -222,7 +225,8 @@ drawDistortion(std::size_t axes, double low, double high, std::uint64_t seed)
   return std::nullopt;
 }
 
-/** \brief One, two or three axes distorted by a measure from intervals of what three can reach. */
+} // namespace
+
 std::vector<Setting>
 distortionSettings(std::uint64_t intervals)
 {
@@ -241,6 +245,8 @@ distortionSettings(std::uint64_t intervals)
     }
   return all;
 }
+
+namespace {
 
 std::string
 drawDistortions(const Rates& rates, const std::string& directory)
@@ -360,6 +366,7 @@ runDistortion(const ChapterOptions& options)
 int
 runPeers(const ChapterOptions& options)
 {
+  requirePeers(options.peer_list);
   const auto train = [&](const Training& training) {
     auto all = peers(training, options.peer_list, peerSettings());
     auto own = ours(training);

@@ -15,6 +15,15 @@ struct ChapterOptions {
   std::vector<std::string> peer_list; ///< peers that take part
 };
 
+/** \brief Factors of one axis, drawn from each of so many \p intervals of [0.4, 2], for each axis
+ * [Wahl 2007, Sec. 3.6.8]. */
+std::vector<Setting> elongationSettings(std::uint64_t intervals);
+
+/** \brief One, two or three random axes distorted by factors from [0.2, 2.3] whose measure
+ * (distortionMeasure()) lies in each of so many \p intervals of what three axes can reach; without
+ * the intervals that fewer axes cannot reach. */
+std::vector<Setting> distortionSettings(std::uint64_t intervals);
+
 /** \name One function a table or figure
  * \return the exit code. \throws as reportRates() */
 ///@{

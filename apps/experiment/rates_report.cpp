@@ -10,12 +10,27 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-/** \brief "99.5 [98.7, 99.8]" */
+/** \brief "99.5 (98.7-99.8)" */
 std::string
 rateText(const Tally& t)
 {
   const auto [low, high] = confidenceInterval(t.right, t.tests);
-  return formatted("%.1f [%.1f, %.1f]", 100 * t.rate(), 100 * low, 100 * high);
+  return formatted("%.1f (%.1f-%.1f)", 100 * t.rate(), 100 * low, 100 * high);
+}
+
+/** \brief Time and failures of each recogniser over all settings. */
+void
+printCosts(const Rates& rates)
+{
+  std::printf("%-32s %10s %16s\n", "", "ms/query", "without answer");
+  for (std::size_t r = 0; r < rates.recognisers.size(); ++r) {
+    Tally all(rates.objects.size());
+    for (const auto& tallies : rates.tallies)
+      all.add(tallies[r]);
+    std::printf("%-32s %10.3f %7llu of %llu\n", rates.recognisers[r]->name().c_str(),
+                1000 * all.secondsPerQuery(), static_cast<unsigned long long>(all.failed),
+                static_cast<unsigned long long>(all.tests));
+  }
 }
 
 /** \brief The object most often taken for another, and which: "anchor > pig (8)". */
@@ -37,7 +52,7 @@ worstConfusion(const Tally& t, const std::vector<ExperimentObject>& objects)
 void
 printSettings(const Rates& rates)
 {
-  std::printf("%-26s %-20s %8s  %s\n", "condition", "right % [95 %]", "ms/query",
+  std::printf("%-26s %-20s %8s  %s\n", "condition", "right % (95 %)", "ms/query",
               "most frequent confusion");
   for (std::size_t s = 0; s < rates.settings.size(); ++s) {
     const Tally& t = rates.tallies[s].front();
@@ -46,23 +61,27 @@ printSettings(const Rates& rates)
   }
 }
 
-/** \brief Several recognisers: a block each, so that intervals find room. */
+constexpr std::size_t kColumns = 8; ///< settings beside each other
+
+/** \brief Several recognisers: a row each, and a table for every few settings. */
 void
 printRecognisers(const Rates& rates)
 {
-  for (std::size_t r = 0; r < rates.recognisers.size(); ++r) {
-    Tally all(rates.objects.size());
-    std::printf("%s\n ", rates.recognisers[r]->name().c_str());
-    for (std::size_t s = 0; s < rates.settings.size(); ++s) {
-      const Tally& t = rates.tallies[s][r];
-      all.add(t);
-      std::printf(" %s: %s%s", rates.settings[s].name.c_str(), rateText(t).c_str(),
-                  s + 1 == rates.settings.size() ? "" : (s % 4 == 3 ? "\n " : ";"));
+  for (std::size_t first = 0; first < rates.settings.size(); first += kColumns) {
+    const std::size_t end = std::min(first + kColumns, rates.settings.size());
+    std::printf("%-32s", "right % (95 %)");
+    for (std::size_t s = first; s < end; ++s)
+      std::printf(" %16s", rates.settings[s].name.c_str());
+    std::printf("\n");
+    for (std::size_t r = 0; r < rates.recognisers.size(); ++r) {
+      std::printf("%-32s", rates.recognisers[r]->name().c_str());
+      for (std::size_t s = first; s < end; ++s)
+        std::printf(" %16s", rateText(rates.tallies[s][r]).c_str());
+      std::printf("\n");
     }
-    std::printf("\n  %.3f ms per query, %llu of %llu without answer\n",
-                1000 * all.secondsPerQuery(), static_cast<unsigned long long>(all.failed),
-                static_cast<unsigned long long>(all.tests));
+    std::printf("\n");
   }
+  printCosts(rates);
 }
 
 std::string

@@ -171,6 +171,13 @@ peerNames()
   return names;
 }
 
+void
+requirePeers(const std::vector<std::string>& names)
+{
+  for (const auto& name : names)
+    descriptorNamed(name);
+}
+
 Recognisers
 peers(const Training& training, const std::vector<std::string>& names,
       const std::vector<Setting>& settings)
