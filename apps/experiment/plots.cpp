@@ -31,18 +31,21 @@ isSmall(std::size_t panels)
 std::string
 plotCommand(const std::string& base, const Panel& panel, std::size_t first_block, bool small)
 {
-  std::string out = "plot ";
-  const std::string data = "'" + base + ".dat' index ";
+  std::vector<std::string> bands, lines;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
-    const std::string block = data + std::to_string(first_block + c);
+    const std::string block = formatted("'%s.dat' index %zu using ", base.c_str(), first_block + c);
     const std::string colour = " lc " + std::to_string(c + 1);
     if (!small)
-      out += block + " using 1:2:3:4 with yerrorbars pt 0 lw 0.5" + colour + " notitle, ";
-    out += block + " using 1:2 with lines lw 1.3" + colour +
-           (small ? " notitle" : " title '" + panel.curves[c].title + "'") +
-           (c + 1 < panel.curves.size() ? ", " : "\n");
+      bands.push_back(block + "1:3:4 with filledcurves fs transparent solid 0.15 noborder" +
+                      colour + " notitle");
+    lines.push_back(block + "1:2 with lines lw 1.5" + colour +
+                    (small ? " notitle" : " title '" + panel.curves[c].title + "'"));
   }
-  return out;
+  std::string out; // all lines above all bands
+  for (const auto* parts : {&bands, &lines})
+    for (const auto& part : *parts)
+      out += (out.empty() ? "plot " : ", \\\n     ") + part;
+  return out + "\n";
 }
 
 std::string
@@ -51,8 +54,9 @@ panelCommands(const std::string& base, const Panel& panel, std::size_t first_blo
   std::string out = "unset label\nset title \"" + panel.title + "\" noenhanced\nset xlabel \"" +
                     panel.x_label + "\"\n";
   for (const auto& s : panel.statements)
-    out += formatted("set label \"%s\" at %g,%g point pt 6 ps 0.8 offset 0.6,0.4 font ',9'\n",
-                     s.text.c_str(), s.x, s.percent);
+    out +=
+        formatted("set label \"%s\" at %g,%g front point pt 6 ps 0.8 offset 0.6,-0.6 font ',9'\n",
+                  s.text.c_str(), s.x, s.percent);
   return out + plotCommand(base, panel, first_block, small);
 }
 
@@ -86,7 +90,7 @@ drawPanels(const std::string& directory, const std::string& base, const std::vec
       formatted("set terminal svg size %zu,%zu background rgb 'white' font 'sans,%d'\n"
                 "set output '%s.svg'\nset multiplot layout %zu,%zu\nset yrange [0:105]\n"
                 "set grid lc rgb '#dddddd'\nset key outside bottom center horizontal\n"
-                "set ytics 20\nset bars small\n%s",
+                "set ytics 20\n%s",
                 columns * width, rows * height, small ? 8 : 11, base.c_str(), rows, columns,
                 small ? "" : "set ylabel 'recognition in %'\n");
   std::size_t block = 0;
