@@ -319,10 +319,9 @@ runNoise(const ChapterOptions& options)
                              [=](double share) { return noisy(share, radius); });
   settings.insert(settings.begin(), fixedSetting("noise 0 %", 0, {}));
   return reportRates(
-      curveExperiment(
-          "noise", formatted("Fig. 3.5: noise, normals within %g spacings", radius),
-          "noise in % of the diameter", std::move(settings),
-          {{1, 80, "above 80 % (K, L)"}, {16, 12.5, "10-15 % (all but chi2, intersection)"}}),
+      curveExperiment("noise", formatted("Fig. 3.5: noise, normals within %g spacings", radius),
+                      "noise in % of the diameter", std::move(settings),
+                      {{1, 80, "above 80 % (K, L)"}, {10, 12.5, "10-15 % (E, chi1, K, L)"}}),
       options.rates);
 }
 
