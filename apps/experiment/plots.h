@@ -37,7 +37,8 @@ struct ConfusionPicture {
   std::vector<std::vector<double>> rates;
 };
 
-/** \brief Draws \p panels in so many \p columns into \p directory/base.svg; base.dat and
+/** \brief Draws \p panels in so many \p columns into \p directory/base.svg, or
+ * base.png for more than six; base.dat and
  * base.gnuplot, which made it, stay beside it.
  * \return an empty string, or why there is no picture. \throws DataError if a file cannot be
  * written
