@@ -123,8 +123,7 @@ TEST_F(Experiment, CriteriaWriteRatesConfusionsAndTheirPicture)
 {
   const AppRun r = run("experiment", twoObjects({"criteria", "-tests", "2", "-seed", "3"}));
   ASSERT_TRUE(ended(r, 0, {}));
-  for (const std::string word :
-       {"Table 3.1", "2 tests per object", "seed 3", "100.0 (51.0-100.0)"})
+  for (const std::string word : {"Table 3.1", "2 tests per object", "seed 3", "100.0 (51.0-100.0)"})
     EXPECT_NE(r.out.find(word), std::string::npos) << word << " in " << r.out;
   const auto rates = rows("criteria.csv");
   ASSERT_EQ(rates.size(), 15u) << "six criteria and one more by two protocols";
