@@ -1,10 +1,13 @@
 // Runs the experiments of the dissertation and prints what they show.
 
 #include "app_common.h"
-#include "experiment/classification_report.h"
+#include "experiment/chapter3.h"
+#include "experiment/output.h"
+#include "experiment/peers/peer_recognisers.h"
 #include "experiment/space_report.h"
 
 #include <algorithm>
+#include <functional>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -16,57 +19,117 @@ constexpr const char* kProgram = "pcl_surflet_experiment";
 /** \brief The options of all experiments: an option may stand before the NAME it belongs to, so the
  * line is read before the experiment is known. */
 struct Options {
-  std::string meshes, out;
-  std::uint64_t tests = ClassificationOptions().tests, saturations = SpaceOptions().saturations,
+  std::string meshes, out, objects, peers = peerNames();
+  std::uint64_t tests = 0; ///< 0: the experiment's own number
+  std::uint64_t intervals = ChapterOptions().intervals, saturations = SpaceOptions().saturations,
                 radii = SpaceOptions().radii, queries = SpaceOptions().queries, seed = 1,
                 threads = 0;
+  double normal_radius = ChapterOptions().normal_radius;
 };
 
 struct Experiment {
   const char* name;
+  const char* help;
+  std::uint64_t tests;                      ///< per object and condition unless -tests is given
   std::vector<std::string> needed, allowed; ///< options
-  int (*run)(const Options&);
+  std::function<int(const Options&, std::uint64_t tests)> run;
 };
 
-int
-classification(const Options& o)
+/** \brief An experiment of chapter 3. */
+Experiment
+ofChapter3(const char* name, const char* help, std::uint64_t tests,
+           int (*run)(const ChapterOptions&), const std::vector<std::string>& more = {})
 {
-  return reportClassification({o.meshes, o.out, o.tests, o.seed, o.threads});
-}
-
-int
-space(const Options& o)
-{
-  return reportSpace({o.out, o.saturations, o.radii, o.queries, o.seed});
+  std::vector<std::string> allowed = {"-objects", "-tests", "-seed", "-threads"};
+  allowed.insert(allowed.end(), more.begin(), more.end());
+  const auto start = [run](const Options& o, std::uint64_t number) {
+    const auto labels = o.objects.empty() ? experimentLabels() : namesIn(o.objects);
+    return run({{o.meshes, o.out, labels, number, o.seed, o.threads},
+                o.normal_radius,
+                o.intervals,
+                namesIn(o.peers)});
+  };
+  return {name, help, tests, {"-meshes", "-out"}, allowed, start};
 }
 
 const std::vector<Experiment>&
 experiments()
 {
   static const std::vector<Experiment> all = {
-      {"classification", {"-meshes", "-out"}, {"-tests", "-seed", "-threads"}, classification},
-      {"space", {"-out"}, {"-saturations", "-radii", "-queries", "-seed"}, space}};
+      ofChapter3("classification", "rates of 20 objects, ideal, noisy and cut, by the likelihood",
+                 100, runClassification),
+      ofChapter3("criteria", "Table 3.1, Fig. 3.4: six criteria, ideal data, confusion matrices",
+                 100, runCriteria),
+      ofChapter3("noise", "Fig. 3.5: noise along the normals", 50, runNoise, {"-normal_radius"}),
+      ofChapter3("visibility", "Fig. 3.6: share left by a random plane", 50, runVisibility),
+      ofChapter3("resolution", "Fig. 3.7: query spacing other than in training", 50, runResolution),
+      ofChapter3("elongation", "Fig. 3.9: one principal axis 0.4 to 2 times as long", 20,
+                 runElongation, {"-intervals"}),
+      ofChapter3("distortion", "Fig. 3.8, 3.10-3.14: one to three axes 0.2 to 2.3 times as long",
+                 20, runDistortion, {"-intervals"}),
+      ofChapter3("peers", "our recognisers beside PCL's global descriptors, same queries", 50,
+                 runPeers, {"-peers"}),
+      {"space",
+       "Exp. 4.6, Fig. 4.8: region search in a uniform cube; times and memory",
+       0,
+       {"-out"},
+       {"-saturations", "-radii", "-queries", "-seed"},
+       [](const Options& o, std::uint64_t) {
+         return reportSpace({o.out, o.saturations, o.radii, o.queries, o.seed});
+       }}};
   return all;
+}
+
+/** \brief The experiments' names, and what they do if \p explained. */
+std::string
+experimentList(bool explained)
+{
+  std::string out;
+  for (const auto& e : experiments())
+    out += explained ? formatted("\n  %-15s %s", e.name, e.help)
+                     : (out.empty() ? "" : ", ") + std::string(e.name);
+  return out;
+}
+
+std::string
+testsByDefault()
+{
+  std::string out;
+  for (const auto& e : experiments())
+    if (e.tests > 0)
+      out += (out.empty() ? "" : ", ") + std::string(e.name) + " " + std::to_string(e.tests);
+  return out;
+}
+
+void
+addChapter3Options(CommandLine& line, Options& o)
+{
+  line.text("-meshes", "DIR",
+            "chapter 3: directory of the objects' OFF meshes, those of the Debian package "
+            "libcgal-demo (needed)",
+            o.meshes);
+  line.text("-objects", "LIST", "chapter 3: names of other meshes there, by commas", o.objects);
+  line.count("-tests", "N",
+             "chapter 3: tests per object and condition, default: " + testsByDefault(), o.tests, 1,
+             1000000);
+  line.real("-normal_radius", "R",
+            "noise: estimate normals within R spacings, default " + number(o.normal_radius),
+            o.normal_radius, 1, 20);
+  line.count("-intervals", "N",
+             "elongation, distortion: steps, default " + std::to_string(o.intervals), o.intervals,
+             1, 1000);
+  line.text("-peers", "LIST", "peers: descriptors that take part, default " + o.peers, o.peers);
 }
 
 CommandLine
 commandLine(Options& o)
 {
-  CommandLine line(
-      kProgram, "NAME",
-      "Runs an experiment of the dissertation and prints its result.\n"
-      "NAME: classification  Table 3.1, Fig. 3.5, 3.6: rates of 20 objects under ideal and\n"
-      "                      disturbed conditions\n"
-      "      space           Exp. 4.6, Fig. 4.8: region search in a uniform cube by a list, the\n"
-      "                      octree, the AVL tree and the linear octree; times and memory");
+  CommandLine line(kProgram, "NAME",
+                   "Runs an experiment of the dissertation and prints its result.\nNAME:" +
+                       experimentList(true));
   const auto of = [](std::uint64_t value) { return ", default " + std::to_string(value); };
   line.text("-out", "DIR", "directory for results, made if missing (needed)", o.out);
-  line.text("-meshes", "DIR",
-            "classification: directory of the OFF meshes of the Debian package libcgal-demo "
-            "(needed)",
-            o.meshes);
-  line.count("-tests", "N", "classification: tests per object and condition" + of(o.tests), o.tests,
-             1, 1000000);
+  addChapter3Options(line, o);
   line.count("-saturations", "N", "space: steps of the saturation" + of(o.saturations),
              o.saturations, 1, 1000);
   line.count("-radii", "N", "space: steps of the radius" + of(o.radii), o.radii, 1, 1000);
@@ -81,7 +144,8 @@ commandLine(Options& o)
 void
 checkOptions(const CommandLine& line, const Experiment& experiment)
 {
-  const auto& [name, needed, allowed, run] = experiment;
+  const auto& needed = experiment.needed;
+  const auto& allowed = experiment.allowed;
   for (const auto& option : needed)
     line.require(option);
   for (const auto& other : experiments())
@@ -89,7 +153,7 @@ checkOptions(const CommandLine& line, const Experiment& experiment)
       for (const auto& option : *list)
         if (line.given(option) && std::find(needed.begin(), needed.end(), option) == needed.end() &&
             std::find(allowed.begin(), allowed.end(), option) == allowed.end())
-          throw UsageError("option " + option + " is not one of the experiment " + name);
+          throw UsageError("option " + option + " is not one of the experiment " + experiment.name);
 }
 
 int
@@ -100,15 +164,12 @@ run(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1);
-  std::string known;
-  for (const auto& experiment : experiments()) {
+  for (const auto& experiment : experiments())
     if (line.files()[0] == experiment.name) {
       checkOptions(line, experiment);
-      return experiment.run(options);
+      return experiment.run(options, options.tests > 0 ? options.tests : experiment.tests);
     }
-    known += (known.empty() ? "" : ", ") + std::string(experiment.name);
-  }
-  throw UsageError("unknown experiment '" + line.files()[0] + "'; known: " + known);
+  throw UsageError("unknown experiment '" + line.files()[0] + "'; known: " + experimentList(false));
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "pcl_surflet/core/mesh_file.h"
 
 #include <cmath>
+#include <sstream>
 
 namespace pcl_surflet {
 namespace apps {
@@ -21,6 +22,16 @@ experimentLabels()
   return labels;
 }
 
+std::vector<std::string>
+namesIn(const std::string& list)
+{
+  std::vector<std::string> names;
+  std::istringstream in(list);
+  for (std::string name; std::getline(in, name, ',');)
+    names.push_back(name);
+  return names;
+}
+
 std::vector<ExperimentObject>
 loadObjects(const std::string& directory, const std::vector<std::string>& labels)
 {
@@ -32,6 +43,7 @@ loadObjects(const std::string& directory, const std::vector<std::string>& labels
     if (const auto problem = object.mesh.problem(); !problem.empty())
       throw std::invalid_argument(label + ".off: " + problem);
     object.spacing = std::sqrt(surfaceArea(object.mesh) / static_cast<double>(kSamplingSize));
+    object.axes = principalAxes(sampleIsoMesh(object.mesh, kSamplingSize, 0));
     objects.push_back(std::move(object));
   }
   return objects;

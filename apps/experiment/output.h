@@ -5,6 +5,7 @@
 #include "app_common.h"
 
 #include <cstddef>
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -18,6 +19,17 @@ void makeDirectory(const std::string& path);
  * \return an empty string, or why there is no picture (gnuplot missing or failing): an
  * experiment's numbers do not depend on it */
 std::string drawByGnuplot(const std::string& directory, const std::string& script);
+
+/** \brief snprintf into a string of at most 800 bytes, for tables; no program here sets a locale.
+ */
+template <class... Values>
+std::string
+formatted(const char* format, const Values&... values)
+{
+  char text[800];
+  std::snprintf(text, sizeof text, format, values...);
+  return text;
+}
 
 using ProgressFunction = std::function<void(std::size_t done, const std::string& what)>;
 

@@ -12,16 +12,6 @@ namespace {
 
 constexpr const char* kBase = "experiment_46";
 
-/** \brief snprintf into a string, for tables; no program here sets a locale. */
-template <class... Values>
-std::string
-formatted(const char* format, const Values&... values)
-{
-  char text[800];
-  std::snprintf(text, sizeof text, format, values...);
-  return text;
-}
-
 std::string
 csvOf(const std::vector<SpaceRow>& rows)
 {

@@ -36,6 +36,44 @@ randomRotation(CounterRandom& random)
            {2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)}}};
 }
 
+using Mat3 = std::array<Vec3, 3>;
+
+Mat3
+covariance(const SurfletSet& set)
+{
+  const Extent extent = computeExtent(set);
+  Mat3 sum{};
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const Vec3 d = {set.x[i] - extent.centroid[0], set.y[i] - extent.centroid[1],
+                    set.z[i] - extent.centroid[2]};
+    for (std::size_t r = 0; r < 3; ++r)
+      for (std::size_t c = 0; c < 3; ++c)
+        sum[r][c] += d[r] * d[c];
+  }
+  return sum;
+}
+
+/** \brief One Jacobi rotation: makes m[p][q] zero and turns the rows \p axes along. */
+void
+rotateAway(Mat3& m, Mat3& axes, std::size_t p, std::size_t q)
+{
+  if (m[p][q] == 0)
+    return;
+  const double angle = 0.5 * std::atan2(2 * m[p][q], m[p][p] - m[q][q]);
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto turn = [c, s](double& a, double& b) {
+    const double old = a;
+    a = c * old + s * b;
+    b = c * b - s * old;
+  };
+  for (std::size_t k = 0; k < 3; ++k)
+    turn(m[k][p], m[k][q]);
+  for (std::size_t k = 0; k < 3; ++k)
+    turn(m[p][k], m[q][k]);
+  for (std::size_t k = 0; k < 3; ++k)
+    turn(axes[p][k], axes[q][k]);
+}
+
 double
 dot(const Vec3& a, double x, double y, double z)
 {
@@ -208,6 +246,55 @@ scaledToDiameter(const TriangleMesh& mesh, double diameter)
     for (float& c : v)
       c = static_cast<float>(c * factor);
   return out;
+}
+
+std::array<std::array<double, 3>, 3>
+principalAxes(const SurfletSet& set)
+{
+  Mat3 m = covariance(set);
+  Mat3 axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  constexpr int kSweeps = 12; // converges quadratically; six are enough for doubles
+  for (int sweep = 0; sweep < kSweeps; ++sweep) {
+    rotateAway(m, axes, 0, 1);
+    rotateAway(m, axes, 0, 2);
+    rotateAway(m, axes, 1, 2);
+  }
+  std::array<std::size_t, 3> order = {0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return m[a][a] > m[b][b]; });
+  return {axes[order[0]], axes[order[1]], axes[order[2]]};
+}
+
+TriangleMesh
+stretched(const TriangleMesh& mesh, const std::array<std::array<double, 3>, 3>& axes,
+          const std::array<double, 3>& factors)
+{
+  for (const double f : factors)
+    if (!(f > 0) || !std::isfinite(f))
+      throw std::invalid_argument("pcl_surflet: a stretch must be positive and finite");
+  TriangleMesh out = mesh;
+  for (auto& v : out.vertices) {
+    Vec3 sum{};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double along = factors[a] * dot(axes[a], v[0], v[1], v[2]);
+      for (std::size_t k = 0; k < 3; ++k)
+        sum[k] += along * axes[a][k];
+    }
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = static_cast<float>(sum[k]);
+  }
+  return out;
+}
+
+double
+distortionMeasure(const std::array<double, 3>& factors)
+{
+  double squares = 0, sum = 0;
+  for (const double f : factors) {
+    squares += (f - 1) * (f - 1);
+    sum += f - 1;
+  }
+  return sum < 0 ? -std::sqrt(squares) : std::sqrt(squares);
 }
 
 } // namespace pcl_surflet

@@ -1,7 +1,8 @@
-// pcl_surflet_experiment: its names, its options, and a tiny run of the experiment on space.
+// pcl_surflet_experiment: its names, its options, and tiny runs.
 #include "app_runner.h"
 
 #include <algorithm>
+#include <map>
 
 using namespace pcl_surflet::test;
 
@@ -9,7 +10,31 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class Experiment : public Apps {};
+class Experiment : public Apps {
+protected:
+  /** \brief Two meshes to recognise, and the arguments that name them. */
+  std::vector<std::string>
+  twoObjects(const std::vector<std::string>& arguments)
+  {
+    for (const std::string shape : {"sphere", "cup"})
+      EXPECT_EQ(run("generate_shape", {shape, path(shape + ".off"), "-points", "500"}).code, 0);
+    std::vector<std::string> all = arguments;
+    for (const auto& more : {std::string("-meshes"), path("."), std::string("-out"),
+                             path("results"), std::string("-objects"), std::string("sphere,cup")})
+      all.push_back(more);
+    return all;
+  }
+
+  std::vector<std::vector<std::string>>
+  rows(const std::string& file)
+  {
+    return parseCsv(readFile(path("results/" + file)));
+  }
+};
+
+const std::vector<std::string> kRateColumns = {"series", "x",      "condition",   "recogniser",
+                                               "tests",  "right",  "rate",        "low",
+                                               "high",   "failed", "ms_per_query"};
 
 } // namespace
 
@@ -17,8 +42,12 @@ TEST_F(Experiment, HelpNamesEveryExperimentAndOption)
 {
   const AppRun r = run("experiment", {"-h"});
   EXPECT_TRUE(ended(r, 0, {}));
-  for (const std::string word : {"classification", "space", "-meshes", "-out", "-tests",
-                                 "-saturations", "-radii", "-queries", "-seed", "-threads"})
+  for (const std::string word :
+       {"classification", "criteria",     "noise",    "visibility",     "resolution",
+        "elongation",     "distortion",   "peers",    "space",          "-meshes",
+        "-out",           "-tests",       "-objects", "-normal_radius", "-intervals",
+        "-peers",         "-saturations", "-radii",   "-queries",       "-seed",
+        "-threads"})
     EXPECT_NE(r.out.find(word), std::string::npos) << word;
 }
 
@@ -27,14 +56,18 @@ TEST_F(Experiment, WrongUsageIsNamed)
   const std::string out = path("results");
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{}, "NAME"},
-      {{"alchemy", "-out", out}, "classification, space"},
+      {{"alchemy", "-out", out}, "classification, criteria"},
       {{"space", "classification", "-out", out}, "'classification'"},
       {{"space"}, "-out"},
       {{"classification", "-out", out}, "-meshes"},
       {{"classification", "-meshes", out}, "-out"},
       {{"space", "-out", out, "-threads", "2"}, "-threads"},
       {{"space", "-out", out, "-meshes", out}, "-meshes"},
-      {{"classification", "-out", out, "-meshes", out, "-radii", "2"}, "-radii"}};
+      {{"classification", "-out", out, "-meshes", out, "-radii", "2"}, "-radii"},
+      {{"noise", "-out", out, "-meshes", out, "-intervals", "2"}, "-intervals"},
+      {{"visibility", "-out", out, "-meshes", out, "-normal_radius", "2"}, "-normal_radius"},
+      {{"criteria", "-out", out, "-meshes", out, "-peers", "vfh"}, "-peers"},
+      {{"peers", "-out", out, "-meshes", out, "-peers", "vfh,sift"}, "'sift'"}};
   for (const auto& [arguments, named] : wrong)
     EXPECT_TRUE(ended(run("experiment", arguments), 1, {named, "-h"})) << named;
   for (const std::string option : {"-saturations", "-radii", "-queries"})
@@ -84,4 +117,62 @@ TEST_F(Experiment, SpaceWritesItsTable)
   EXPECT_NE(readFile(out + "/experiment_46.gnuplot").find("experiment_46.csv"), std::string::npos);
   // The picture needs gnuplot, the numbers do not.
   EXPECT_NE(fs::exists(out + "/experiment_46.svg"), r.err.find("no picture") != std::string::npos);
+}
+
+TEST_F(Experiment, CriteriaWriteRatesConfusionsAndTheirPicture)
+{
+  const AppRun r = run("experiment", twoObjects({"criteria", "-tests", "2", "-seed", "3"}));
+  ASSERT_TRUE(ended(r, 0, {}));
+  for (const std::string word : {"Table 3.1", "2 tests per object", "seed 3", "100.0 (51.0-100.0)"})
+    EXPECT_NE(r.out.find(word), std::string::npos) << word << " in " << r.out;
+  const auto rates = rows("criteria.csv");
+  ASSERT_EQ(rates.size(), 15u) << "six criteria and one more by two protocols";
+  EXPECT_EQ(rates[0], kRateColumns);
+  std::map<std::string, int> answers;
+  for (const auto& row : rows("criteria_confusion.csv"))
+    if (row[6] != "count")
+      answers[row[3]] += std::stoi(row[6]);
+  for (std::size_t i = 1; i < rates.size(); ++i) {
+    EXPECT_EQ(rates[i][4], "4");
+    EXPECT_EQ(answers[rates[i][3]], 4) << rates[i][3];
+  }
+  EXPECT_EQ(rates[6][3], "likelihood");
+  EXPECT_EQ(rates[6][5], "4") << "a sphere is not a cup";
+  EXPECT_NE(fs::exists(path("results/criteria_confusion.png")),
+            r.err.find("no picture") != std::string::npos);
+}
+
+TEST_F(Experiment, DistortionsGiveTheSameWhateverTheThreads)
+{
+  const auto arguments = twoObjects({"distortion", "-tests", "1", "-intervals", "2"});
+  std::string confusions[2];
+  for (const std::string threads : {"1", "2"}) {
+    auto all = arguments;
+    all.insert(all.end(), {"-threads", threads});
+    ASSERT_TRUE(ended(run("experiment", all), 0, {}));
+    confusions[threads == "2"] = readFile(path("results/distortion_confusion.csv"));
+  }
+  EXPECT_EQ(confusions[0], confusions[1]);
+  const auto rates = rows("distortion.csv");
+  ASSERT_EQ(rates.size(), 7u) << "one, two and three axes, shrunk and stretched";
+  for (std::size_t i = 1; i < rates.size(); ++i)
+    EXPECT_EQ(rates[i][4], "2");
+}
+
+TEST_F(Experiment, PeersAnswerTheSameQueriesAndNameTheirMetric)
+{
+  const AppRun r =
+      run("experiment", twoObjects({"peers", "-tests", "1", "-peers", "our-cvfh,vfh,ppf"}));
+  ASSERT_TRUE(ended(r, 0, {}));
+  const auto rates = rows("peers.csv");
+  std::map<std::string, std::map<std::string, std::vector<std::string>>> table;
+  for (std::size_t i = 1; i < rates.size(); ++i)
+    table[rates[i][3].substr(0, rates[i][3].find(','))][rates[i][2]] = rates[i];
+  for (const std::string name : {"our-cvfh", "vfh", "ppf", "likelihood"})
+    ASSERT_EQ(table[name].size(), 8u) << name << " under eight conditions";
+  EXPECT_EQ(table["vfh"]["ideal"][5], "2");
+  EXPECT_EQ(table["ppf"]["ideal"][5], "2");
+  EXPECT_GT(std::stod(table["vfh"]["ideal"][10]), 0) << "time per query";
+  const auto& name = table["vfh"]["ideal"][3];
+  EXPECT_TRUE(name == "vfh, L1" || name == "vfh, L2" || name == "vfh, chi-squared") << name;
 }

@@ -1,11 +1,13 @@
 /** \file
  * What happens to surfaces on their way through a sensor: motion, scale, noise, missing parts.
- * For experiments and for training under conditions. */
+ * And what tells two instances of a class apart: distortion. For experiments and for training under
+ * conditions. */
 #pragma once
 
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
 
+#include <array>
 #include <cstdint>
 
 namespace pcl_surflet {
@@ -39,5 +41,23 @@ PCL_SURFLET_API SurfletSet singleView(const SurfletSet& set, double spacing, dou
 /** \brief The mesh scaled so that its farthest vertices are \p diameter apart.
  * \throws std::invalid_argument if the vertices have no extent */
 PCL_SURFLET_API TriangleMesh scaledToDiameter(const TriangleMesh& mesh, double diameter);
+
+/** \brief Orthonormal directions of the largest, the second and the smallest spread of the
+ * positions: the eigenvectors of their covariance [Wahl 2007, Sec. 3.6.8]. Where spreads are equal,
+ * as on a sphere, any of the possible directions. Unit vectors also for an empty set. */
+PCL_SURFLET_API std::array<std::array<double, 3>, 3> principalAxes(const SurfletSet& set);
+
+/** \brief The mesh stretched along three orthonormal \p axes by \p factors (1 leaves an axis as it
+ * is) about the origin [Wahl 2007, Eq. 3.24-3.26].
+ * \throws std::invalid_argument if a factor is not positive and finite */
+PCL_SURFLET_API TriangleMesh stretched(const TriangleMesh& mesh,
+                                       const std::array<std::array<double, 3>, 3>& axes,
+                                       const std::array<double, 3>& factors);
+
+/** \brief Signed measure of a distortion by these factors [Wahl 2007, Eq. 3.27, 3.28]: the
+ * Euclidean distance of the factors from (1, 1, 1), negative if they shrink more than they stretch.
+ * The sign's condition is lost in the dissertation's text; here it is the sign of the sum of
+ * (factor - 1). */
+PCL_SURFLET_API double distortionMeasure(const std::array<double, 3>& factors);
 
 } // namespace pcl_surflet
