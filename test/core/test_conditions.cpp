@@ -134,50 +134,51 @@ TEST(Conditions, NoiseOfAViewIsAlongTheLineOfSight)
   EXPECT_NEAR(largest, 0.01, 2e-4);
   EXPECT_EQ(clean.nx, noisy.nx);
   EXPECT_THROW(singleView(ball, 0, 0, 1), std::invalid_argument);
+}
 
-  TEST(Conditions, PrincipalAxesAreThoseOfABoxHoweverItIsTurned)
-  {
-    const auto box = sampleShape(Shape::box(4, 1, 2), 20000, 1);
-    for (const std::uint64_t seed : {1u, 2u, 3u}) {
-      const auto turned = randomlyRotated(box, seed);
-      SurfletSet frame; // turns like the box: its normals are where the box's own axes went
-      for (const auto& axis : {Surflet{0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 1, 0}})
-        frame.push_back(axis);
-      frame = randomlyRotated(frame, seed);
-      const auto axes = principalAxes(turned);
-      for (std::size_t a = 0; a < 3; ++a) {
-        const double along =
-            axes[a][0] * frame.nx[a] + axes[a][1] * frame.ny[a] + axes[a][2] * frame.nz[a];
-        EXPECT_NEAR(std::abs(along), 1, 1e-3) << "axis " << a << " seed " << seed;
-      }
+TEST(Conditions, PrincipalAxesAreThoseOfABoxHoweverItIsTurned)
+{
+  const auto box = sampleShape(Shape::box(4, 1, 2), 20000, 1);
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
+    const auto turned = randomlyRotated(box, seed);
+    SurfletSet frame; // turns like the box: its normals are where the box's own axes went
+    for (const auto& axis : {Surflet{0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 0, 1}, {0, 0, 0, 0, 1, 0}})
+      frame.push_back(axis);
+    frame = randomlyRotated(frame, seed);
+    const auto axes = principalAxes(turned);
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double along =
+          axes[a][0] * frame.nx[a] + axes[a][1] * frame.ny[a] + axes[a][2] * frame.nz[a];
+      EXPECT_NEAR(std::abs(along), 1, 1e-3) << "axis " << a << " seed " << seed;
     }
-    for (const auto& axis : principalAxes(SurfletSet{}))
-      EXPECT_EQ(std::hypot(axis[0], axis[1], axis[2]), 1);
   }
+  for (const auto& axis : principalAxes(SurfletSet{}))
+    EXPECT_EQ(std::hypot(axis[0], axis[1], axis[2]), 1);
+}
 
-  TEST(Conditions, StretchingAlongTurnedAxes)
-  {
-    const double h = std::sqrt(0.5);
-    const std::array<std::array<double, 3>, 3> axes = {{{h, h, 0}, {-h, h, 0}, {0, 0, 1}}};
-    TriangleMesh mesh;
-    mesh.vertices = {{1, 1, 0}, {-1, 1, 0}, {0, 0, 3}};
-    mesh.triangles = {{0, 1, 2}};
-    const auto out = stretched(mesh, axes, {2, 0.5, 1});
-    const TriangleMesh::Point expected[] = {{2, 2, 0}, {-0.5, 0.5, 0}, {0, 0, 3}};
-    for (std::size_t v = 0; v < 3; ++v)
-      for (std::size_t k = 0; k < 3; ++k)
-        EXPECT_NEAR(out.vertices[v][k], expected[v][k], 1e-6);
-    EXPECT_EQ(out.triangles, mesh.triangles);
-    EXPECT_THROW(stretched(mesh, axes, {0, 1, 1}), std::invalid_argument);
-    EXPECT_THROW(stretched(mesh, axes, {1, std::nan(""), 1}), std::invalid_argument);
-  }
+TEST(Conditions, StretchingAlongTurnedAxes)
+{
+  const double h = std::sqrt(0.5);
+  const std::array<std::array<double, 3>, 3> axes = {{{h, h, 0}, {-h, h, 0}, {0, 0, 1}}};
+  TriangleMesh mesh;
+  mesh.vertices = {{1, 1, 0}, {-1, 1, 0}, {0, 0, 3}};
+  mesh.triangles = {{0, 1, 2}};
+  const auto out = stretched(mesh, axes, {2, 0.5, 1});
+  const TriangleMesh::Point expected[] = {{2, 2, 0}, {-0.5, 0.5, 0}, {0, 0, 3}};
+  for (std::size_t v = 0; v < 3; ++v)
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_NEAR(out.vertices[v][k], expected[v][k], 1e-6);
+  EXPECT_EQ(out.triangles, mesh.triangles);
+  EXPECT_THROW(stretched(mesh, axes, {0, 1, 1}), std::invalid_argument);
+  EXPECT_THROW(stretched(mesh, axes, {1, std::nan(""), 1}), std::invalid_argument);
+}
 
-  TEST(Conditions, DistortionIsNegativeWhereItShrinksMore)
-  {
-    EXPECT_EQ(distortionMeasure({1, 1, 1}), 0);
-    EXPECT_NEAR(distortionMeasure({1.5, 1, 1}), 0.5, 1e-12);
-    EXPECT_NEAR(distortionMeasure({1, 0.5, 1}), -0.5, 1e-12);
-    // A mean would not see this one (the reason for the metric).
-    EXPECT_NEAR(distortionMeasure({1.5, 0.5, 1}), std::sqrt(0.5), 1e-12);
-    EXPECT_NEAR(distortionMeasure({0.2, 0.2, 0.2}), -0.8 * std::sqrt(3.0), 1e-12);
-  }
+TEST(Conditions, DistortionIsNegativeWhereItShrinksMore)
+{
+  EXPECT_EQ(distortionMeasure({1, 1, 1}), 0);
+  EXPECT_NEAR(distortionMeasure({1.5, 1, 1}), 0.5, 1e-12);
+  EXPECT_NEAR(distortionMeasure({1, 0.5, 1}), -0.5, 1e-12);
+  // A mean would not see this one (the reason for the metric).
+  EXPECT_NEAR(distortionMeasure({1.5, 0.5, 1}), std::sqrt(0.5), 1e-12);
+  EXPECT_NEAR(distortionMeasure({0.2, 0.2, 0.2}), -0.8 * std::sqrt(3.0), 1e-12);
+}

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "pcl_surflet/impl/octree_region_search.hpp"
 #include "pcl_surflet/impl/oriented_input.h"
+#include "pcl_surflet/octree_region_search.h"
 #include "pcl_surflet/scene_interpreter.h"
 
 #include <pcl/filters/impl/filter_indices.hpp>
