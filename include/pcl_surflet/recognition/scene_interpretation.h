@@ -143,7 +143,7 @@ struct ExplanationParameters {
    * cells times (fit - junk_fit). */
   double junk_fit = 0.6;
   double strong_fit = 0.86; ///< from here on, no rival is looked for, in [0, 1]
-  unsigned rounds = 2; ///< times that explanations are sought, then on what is left, in [1, 255]
+  unsigned rounds = 4; ///< times that explanations are sought, then on what is left, in [1, 255]
   unsigned vote_pairs = 24; ///< BackgroundTreatment::Model: pairs by which a cell is judged, >= 1
   double vote_share = 0.3;  ///< a cell is background from this share of its pairs on, in (0, 1]
   double vote_radius = 0.3; ///< partners lie within this share of the background's delta_max, > 0

@@ -1,15 +1,14 @@
 #include "explanation.h"
 
-#include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
-constexpr std::uint64_t kVoteStream = 0x766f7465ULL;
 constexpr std::uint64_t kLongStream = 0x6c6f6e67ULL;
 constexpr std::uint64_t kLongDraws = 200000;
 constexpr float kFewestLongPairs = 2000; ///< a bin of 1 % then has 20
@@ -19,8 +18,6 @@ constexpr std::size_t kBlock = 256;      ///< cells judged at a time by one thre
 bool
 isBackground(const SceneModels& models, std::uint32_t angular_bin, float delta_squared)
 {
-  if (angular_bin == kNoPairFeature)
-    return false;
   float object = 0, background = 0;
   for (std::size_t k = 0; k < models.all.size(); ++k) {
     float& best = k < models.objects ? object : background;
@@ -29,22 +26,24 @@ isBackground(const SceneModels& models, std::uint32_t angular_bin, float delta_s
   return background > object;
 }
 
-/** \brief \p n random neighbours of \p cell; fewer than two cells in reach give none. */
+/** \brief \p n neighbours of \p cell, spread evenly over those in reach, which may include itself;
+ * fewer than two cells in reach give none. */
 void
-drawNeighbours(const LinearOctree& octree, const SurfletSet& s, std::uint32_t cell, double radius,
-               unsigned n, CounterRandom random, std::vector<PlaceRange>& ranges,
-               std::vector<std::uint32_t>& out)
+spreadNeighbours(const LinearOctree& octree, const SurfletSet& s, std::uint32_t cell, double radius,
+                 unsigned n, std::vector<PlaceRange>& ranges, std::vector<std::uint32_t>& out)
 {
   octree.regionRanges({s.x[cell], s.y[cell], s.z[cell]}, radius, ranges);
-  std::uint32_t total = 0;
+  std::uint64_t total = 0;
   for (const auto& r : ranges)
     total += r.end - r.begin;
+  std::uint64_t before = 0;
+  const auto* range = ranges.data();
   for (unsigned i = 0; total > 1 && i < n; ++i) {
-    std::uint32_t at = random.below(total);
-    const auto* range = ranges.data();
-    for (; at >= range->end - range->begin; ++range)
-      at -= range->end - range->begin;
-    out.push_back(static_cast<std::uint32_t>(octree.indexAt(range->begin + at)));
+    const std::uint64_t at = (2 * i + 1) * total / (2 * n);
+    for (; at - before >= range->end - range->begin; ++range)
+      before += range->end - range->begin;
+    out.push_back(static_cast<std::uint32_t>(
+        octree.indexAt(range->begin + static_cast<std::uint32_t>(at - before))));
   }
 }
 
@@ -59,6 +58,39 @@ neighbourhood(const SceneModels& models, double share)
   return smallest;
 }
 
+/** \brief Which features are background, for all angles and distances up to a radius: asked once
+ * for every step of distance, not for every pair. */
+class FeatureTable {
+public:
+  /** \param longest in the scene's unit scale
+   * \param is_background of (angular bin, squared distance) */
+  template <class IsBackground>
+  FeatureTable(const Resolution& resolution, double longest, const IsBackground& is_background)
+      : angular_bins_(static_cast<std::uint32_t>(resolution.angularBins())),
+        steps_per_length_(static_cast<float>(kSteps / longest))
+  {
+    for (unsigned k = 0; k < kSteps; ++k) {
+      const auto delta = static_cast<float>((k + 0.5) / kSteps * longest);
+      for (std::uint32_t a = 0; a < angular_bins_; ++a)
+        table_.push_back(is_background(a, delta * delta) ? 1 : 0);
+    }
+  }
+  unsigned
+  operator()(std::uint32_t angular_bin, float delta_squared) const
+  {
+    if (angular_bin == kNoPairFeature)
+      return 0;
+    const float step = std::min(std::sqrt(delta_squared) * steps_per_length_, kSteps - 1.f);
+    return table_[static_cast<std::size_t>(step) * angular_bins_ + angular_bin];
+  }
+
+private:
+  static constexpr unsigned kSteps = 64; // nine or more in every interval of a model
+  std::uint32_t angular_bins_;
+  float steps_per_length_;
+  std::vector<char> table_;
+};
+
 /** \brief Background are the cells of which enough pairs with neighbours within \p radius are, by
  * \p is_background (angular bin, squared distance). */
 template <class IsBackground>
@@ -67,22 +99,24 @@ vote(const SceneData& scene, const LinearOctree& octree, double radius, double s
      const ExplanationParameters& p, const IsBackground& is_background)
 {
   const std::size_t n = scene.cells.size();
+  const FeatureTable table(scene.models.resolution, radius * scene.source.scale(), is_background);
   std::vector<char> background(n, 0);
   parallelFor((n + kBlock - 1) / kBlock, p.steps.threads, [&](std::size_t block, unsigned) {
+    const std::size_t begin = block * kBlock, end = std::min(n, begin + kBlock);
     std::vector<PlaceRange> ranges;
     std::vector<std::uint32_t> first, second;
-    PairFeatures features;
-    for (std::size_t i = block * kBlock; i < std::min(n, (block + 1) * kBlock); ++i) {
-      second.clear();
-      drawNeighbours(octree, scene.cells, static_cast<std::uint32_t>(i), radius, p.vote_pairs,
-                     CounterRandom(p.steps.seed, mix64(kVoteStream) + i), ranges, second);
-      first.assign(second.size(), static_cast<std::uint32_t>(i));
-      featuresOfPairs(scene.source, scene.models.resolution, first, second, features);
-      std::size_t votes = 0;
-      for (std::size_t k = 0; k < first.size(); ++k)
-        votes += is_background(features.angular_bin[k], features.delta_squared[k]);
-      background[i] = votes > 0 && static_cast<double>(votes) >= share * p.vote_pairs;
+    for (std::size_t i = begin; i < end; ++i) {
+      spreadNeighbours(octree, scene.cells, static_cast<std::uint32_t>(i), radius, p.vote_pairs,
+                       ranges, second);
+      first.resize(second.size(), static_cast<std::uint32_t>(i));
     }
+    PairFeatures features;
+    featuresOfPairs(scene.source, scene.models.resolution, first, second, features);
+    std::vector<unsigned> votes(end - begin, 0);
+    for (std::size_t k = 0; k < first.size(); ++k)
+      votes[first[k] - begin] += table(features.angular_bin[k], features.delta_squared[k]);
+    for (std::size_t i = begin; i < end; ++i)
+      background[i] = votes[i - begin] > 0 && votes[i - begin] >= share * p.vote_pairs;
   });
   return background;
 }
@@ -158,8 +192,6 @@ voteForUniformBackground(const SceneData& scene, const LinearOctree& octree,
   const double radius = p.uniform_vote_radius * scene.models.largest_delta;
   return vote(scene, octree, radius, p.uniform_vote_share, p,
               [&](std::uint32_t angular_bin, float delta_squared) {
-                if (angular_bin == kNoPairFeature)
-                  return false;
                 float object = 0;
                 for (std::size_t k = 0; k < conditional.size(); ++k) {
                   const auto b = scene.models.all[k].bin(angular_bin, delta_squared);

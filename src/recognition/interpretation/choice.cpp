@@ -15,6 +15,7 @@ constexpr std::uint64_t kFitStream = std::uint64_t{3} << 40;
 constexpr double kSameCells = 0.02;
 /** \brief Explanations of one model that share this part of the smaller one's cells are one. */
 constexpr double kSameExplanation = 0.6;
+constexpr double kStrangers = 0.3; ///< share of other cells among which an object is alone
 constexpr unsigned kPolishings = 2;
 constexpr double kFirstChosen = 0.7; ///< share of the work, about
 
@@ -90,12 +91,13 @@ public:
   void add(const std::vector<Explanation>& candidates);
   void polish();
   bool exchangeWeak(const std::vector<Segment>& candidates);
+  void dropWorthless(double least_fit);
   std::vector<char> taken(std::size_t but = ~std::size_t{0}) const;
 
 private:
   double value(const std::vector<Explanation>& set) const;
   bool takeIfBetter(std::vector<Explanation> trial);
-  void dropWorthless();
+  bool isAlone(const Explanation& e) const;
   std::vector<Segment> rivalsOf(const Explanation& e, const std::vector<Segment>& all) const;
 
   Explaining& work_;
@@ -125,12 +127,12 @@ Choice::takeIfBetter(std::vector<Explanation> trial)
 
 /** \brief Takes explanations out as long as the others do better without one. */
 void
-Choice::dropWorthless()
+Choice::dropWorthless(double least_fit)
 {
   for (std::size_t k = 0; k < chosen_.size();) {
     auto trial = chosen_;
     trial.erase(trial.begin() + static_cast<std::ptrdiff_t>(k));
-    if (chosen_[k].fit < work_.parameters.min_fit) {
+    if (chosen_[k].fit < least_fit) {
       division_.divide(trial, false);
       chosen_ = std::move(trial);
       k = 0;
@@ -145,13 +147,13 @@ void
 Choice::add(const std::vector<Explanation>& candidates)
 {
   for (const auto& e : candidates) {
-    if (e.fit < work_.parameters.min_fit)
+    if (e.fit < work_.parameters.junk_fit)
       continue;
     auto trial = chosen_;
     trial.push_back(e);
     takeIfBetter(std::move(trial));
   }
-  dropWorthless();
+  dropWorthless(work_.parameters.junk_fit);
 }
 
 /** \brief Looks for supporters of what has been chosen again, now that its cells are its own. */
@@ -175,7 +177,7 @@ Choice::polish()
                        [&](const Explanation& e) { return e.cells.size() < p.steps.min_cluster; }),
         chosen_.end());
   }
-  dropWorthless();
+  dropWorthless(work_.parameters.junk_fit);
 }
 
 /** \brief Cells of all that has been chosen \p but one. */
@@ -202,13 +204,22 @@ Choice::rivalsOf(const Explanation& e, const std::vector<Segment>& all) const
   return rivals;
 }
 
+/** \brief Are nearly all cells where the model is its own? Then nothing else can be there. */
+bool
+Choice::isAlone(const Explanation& e) const
+{
+  std::vector<PlaceRange> ranges;
+  const Indices ball = cellsWithin(work_.open, e.centre, work_.radiusOf(e.model), ranges);
+  return static_cast<double>(ball.size()) < (1 + kStrangers) * static_cast<double>(e.cells.size());
+}
+
 /** \brief Tries what else could explain the cells of a weak explanation: a large model that fits
  * two objects a little may have been there before either of them. \return whether it changed */
 bool
 Choice::exchangeWeak(const std::vector<Segment>& candidates)
 {
   for (std::size_t k = 0; k < chosen_.size(); ++k) {
-    if (chosen_[k].fit >= work_.parameters.strong_fit)
+    if (chosen_[k].fit >= work_.parameters.strong_fit || isAlone(chosen_[k]))
       continue;
     work_.openExcept(taken(k));
     const auto others = lookClosely(work_, rivalsOf(chosen_[k], candidates));
@@ -292,6 +303,7 @@ choose(Explaining& work, const std::vector<Segment>& candidates)
     else if (choice.chosen().size() == before)
       break;
   }
+  choice.dropWorthless(work.parameters.min_fit);
   return choice.chosen();
 }
 

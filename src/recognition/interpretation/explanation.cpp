@@ -48,6 +48,19 @@ check(const ExplanationParameters& p)
   require(p.vote_radius > 0 && std::isfinite(p.vote_radius), "vote_radius must be positive");
 }
 
+/** \brief Are there enough open cells for the model? Most are explained when this is asked again.
+ */
+bool
+enoughCells(const Explaining& work, const Segment& s)
+{
+  std::vector<PlaceRange> ranges;
+  const auto& p = work.parameters;
+  const double fewest = std::max(static_cast<double>(p.steps.min_cluster),
+                                 kLeastCoverage * work.scene.models.all[s.model].expected_cells);
+  return static_cast<double>(
+             cellsWithin(work.open, s.centre, work.radiusOf(s.model), ranges).size()) >= fewest;
+}
+
 /** \brief Nats per pair by which the model exceeds the best other one on the cells. */
 double
 scoreOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
@@ -105,6 +118,8 @@ lookClosely(Explaining& work, const Segment& rough, SupportMemory& memory)
   const double radius = work.radiusOf(rough.model);
   Segment s = rough;
   for (unsigned k = 0; k < kSettlings; ++k) {
+    if (!enoughCells(work, s))
+      return {};
     drawSample(work.scene, work.open, s.centre, radius, p.settling_cells, memory);
     s = segment(work.scene, rough.model, s.centre, radius, memory);
     if (s.core.size() < 3 || s.rough_fit < kLeastRoughFit)

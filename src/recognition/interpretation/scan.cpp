@@ -17,6 +17,8 @@ constexpr double kSamePlace = 0.4;
 /** \brief A rough segment needs this intersection. Few pairs make it lower than a fit: 0.5 to 0.7
  * where the model is right, 0.2 to 0.4 where it is not. */
 constexpr double kLeastRoughFit = 0.35;
+/** \brief The same at first, with half as many cells and a quarter of the pairs. */
+constexpr double kLeastFirstFit = 0.2;
 constexpr double kScanBegins = 0.1, kScanEnds = 0.5; ///< shares of the work, about
 
 /** \brief Middles of the occupied cubes of \p edge, in the order of their numbers. */
@@ -66,10 +68,10 @@ radiusClasses(const Explaining& work)
 }
 
 bool
-isPromising(const Explaining& work, const Segment& s)
+isPromising(const Explaining& work, const Segment& s, double least_fit)
 {
   return s.cells >= static_cast<double>(work.parameters.steps.min_cluster) &&
-         s.rough_fit >= kLeastRoughFit;
+         s.rough_fit >= least_fit;
 }
 
 double
@@ -80,10 +82,10 @@ distance(const Centre& a, const Centre& b)
 
 /** \brief Drops what is not promising and, of segments at one place, all but the most worthy. */
 std::vector<Segment>
-best(const Explaining& work, std::vector<Segment> all)
+best(const Explaining& work, std::vector<Segment> all, double least_fit)
 {
   all.erase(std::remove_if(all.begin(), all.end(),
-                           [&](const Segment& s) { return !isPromising(work, s); }),
+                           [&](const Segment& s) { return !isPromising(work, s, least_fit); }),
             all.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.worth() > b.worth(); });
@@ -113,7 +115,7 @@ tryEverywhere(Explaining& work, const std::vector<Centre>& places)
     SupportMemory& memory = work.memory[worker];
     for (const auto& members : classes) {
       drawSample(work.scene, work.open, places[i], work.radiusOf(members.front()),
-                 work.parameters.scan_cells, memory);
+                 work.parameters.scan_cells / 2, memory);
       for (const auto k : members)
         all[i * models + k] = segment(work.scene, k, places[i], work.radiusOf(k), memory);
     }
@@ -130,7 +132,7 @@ scan(Explaining& work)
   for (std::size_t k = 0; k < work.scene.models.objects; ++k)
     smallest = std::min(smallest, work.scene.models.all[k].model->r_mean);
   const auto places = placesOf(work.scene, work.open, work.parameters.place_spacing * smallest);
-  auto found = best(work, tryEverywhere(work, places));
+  auto found = best(work, tryEverywhere(work, places), kLeastFirstFit);
   for (unsigned round = 1; round < work.parameters.recentrings; ++round) {
     parallelFor(found.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
       SupportMemory& memory = work.memory[worker];
@@ -139,7 +141,7 @@ scan(Explaining& work)
       drawSample(work.scene, work.open, s.centre, radius, work.parameters.scan_cells, memory);
       s = segment(work.scene, s.model, s.centre, radius, memory);
     });
-    found = best(work, std::move(found));
+    found = best(work, std::move(found), kLeastRoughFit);
   }
   return found;
 }

@@ -10,11 +10,10 @@ namespace interpretation {
 namespace {
 
 constexpr unsigned kIterations = 10;
-/** \brief A segment of fewer of a model's cells, if their number is known, is nothing. */
-constexpr double kLeastCoverage = 0.3;
 /** \brief A weight rises from 0 to 1 over this interval of support, halved thrice. */
 constexpr float kFirstSlope = 1;
 constexpr unsigned kSlopeDoublings = 3;
+constexpr float kSettled = 0.005f; ///< share of the weight that may still change
 
 /** \brief Columns and distances of what is in m.features, see Sample. */
 void
@@ -100,8 +99,15 @@ settleWeights(const std::vector<float>& ratio, std::vector<float>& weight,
     // Among strangers everybody's support is poor at first: who is above the mean stays.
     const float threshold = std::min(0.f, mean / total);
     const float slope = kFirstSlope * static_cast<float>(1u << std::min(k, kSlopeDoublings));
-    for (std::size_t i = 0; i < weight.size(); ++i)
-      weight[i] = takes_part[i] ? std::clamp(0.5f + slope * (support[i] - threshold), 0.f, 1.f) : 0;
+    float change = 0;
+    for (std::size_t i = 0; i < weight.size(); ++i) {
+      const float w =
+          takes_part[i] ? std::clamp(0.5f + slope * (support[i] - threshold), 0.f, 1.f) : 0;
+      change += std::abs(w - weight[i]);
+      weight[i] = w;
+    }
+    if (k >= kSlopeDoublings && change < kSettled * total)
+      return;
   }
 }
 

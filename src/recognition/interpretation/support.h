@@ -11,6 +11,9 @@ namespace interpretation {
 
 using Centre = std::array<double, 3>;
 
+/** \brief A segment of fewer of a model's cells, if their number is known, is nothing. */
+constexpr double kLeastCoverage = 0.3;
+
 /** \brief Cells drawn evenly from those within a ball, and the features of all their pairs. */
 struct Sample {
   Indices cells;              ///< in the order of the octree
