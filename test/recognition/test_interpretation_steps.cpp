@@ -123,6 +123,42 @@ TEST(SceneModels, PairsBeyondTheModelHaveNoValue)
   EXPECT_EQ(m.value(7, squared(0.11)), 0);
 }
 
+TEST(Seeds, HoldWhatIsWithinTheLargestRadiusOfASurflet)
+{
+  World w(rod());
+  DissertationParameters p;
+  p.seeds = 20;
+  const auto seeds = plantSeeds(w.scene, 1, range(0, 1000), p);
+  ASSERT_EQ(seeds.size(), 20u);
+  const double r_max = w.models.all[1].model->r_max;
+  const auto neighbours = [&](std::uint32_t c) {
+    Indices near;
+    for (std::uint32_t i = 0; i < 1000; ++i)
+      if (std::hypot(rod().x[i] - rod().x[c], rod().y[i] - rod().y[c], rod().z[i] - rod().z[c]) <=
+          r_max)
+        near.push_back(i);
+    return near;
+  };
+  std::vector<Indices> expected;
+  for (std::uint32_t c = 0; c < 1000; ++c)
+    expected.push_back(neighbours(c));
+  for (const auto& seed : seeds) // Eq. 5.13: of some surflet, whichever was drawn
+    EXPECT_NE(std::find(expected.begin(), expected.end(), seed.surflets), expected.end());
+}
+
+TEST(Refinement, ErasesBothSurfletsOfACrosstalkPair)
+{
+  const auto n = static_cast<std::uint32_t>(ball().size());
+  World w(joined(ball(), shifted(rod(), 1)));
+  Regrouping groups;
+  groups.first = {0, 1};
+  groups.second = {n, 2}; // too far apart; both on the ball
+  featuresOfPairs(w.source, w.models.resolution, groups.first, groups.second, groups.features);
+  Indices surflets = {0, 1, 2, n};
+  EXPECT_TRUE(eraseCrosstalk(groups, w.models.all[0], surflets));
+  EXPECT_EQ(surflets, (Indices{1, 2}));
+}
+
 TEST(Preselection, SelectsEachModelsOwnSurflets)
 {
   const auto n = static_cast<std::uint32_t>(ball().size());

@@ -36,6 +36,22 @@ ascending(const std::vector<PointIndex>& found)
   return out;
 }
 
+/** \brief Mean of \p value (angular bin, squared distance) over the features; -inf without any. */
+template <class Value>
+double
+meanOfFeatures(const Regrouping& groups, const Value& value)
+{
+  double sum = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < groups.first.size(); ++i) {
+    if (groups.features.angular_bin[i] == kNoPairFeature)
+      continue;
+    sum += value(groups.features.angular_bin[i], groups.features.delta_squared[i]);
+    ++n;
+  }
+  return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);
+}
+
 } // namespace
 
 bool
@@ -78,31 +94,18 @@ Regrouping::draw(const SceneData& scene, const Indices& surflets, std::uint64_t 
 double
 meanLogLikelihood(const Regrouping& groups, const SceneModel& model, float log_h_min)
 {
-  double sum = 0;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < groups.first.size(); ++i) {
-    if (groups.features.angular_bin[i] == kNoPairFeature)
-      continue;
-    const auto bin = model.bin(groups.features.angular_bin[i], groups.features.delta_squared[i]);
-    sum += bin == kBeyond ? log_h_min : model.log_h[bin];
-    ++n;
-  }
-  return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);
+  return meanOfFeatures(groups, [&](std::uint32_t angular_bin, float delta_squared) -> double {
+    const auto bin = model.bin(angular_bin, delta_squared);
+    return bin == kBeyond ? log_h_min : model.log_h[bin];
+  });
 }
 
 double
 meanLogDensity(const Regrouping& groups, const SceneModel& model)
 {
-  double sum = 0;
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < groups.first.size(); ++i) {
-    if (groups.features.angular_bin[i] == kNoPairFeature)
-      continue;
-    sum += std::log(static_cast<double>(
-        model.densityOf(groups.features.angular_bin[i], groups.features.delta_squared[i])));
-    ++n;
-  }
-  return n == 0 ? -std::numeric_limits<double>::infinity() : sum / static_cast<double>(n);
+  return meanOfFeatures(groups, [&](std::uint32_t angular_bin, float delta_squared) {
+    return std::log(static_cast<double>(model.densityOf(angular_bin, delta_squared)));
+  });
 }
 
 ClustersOfModel
