@@ -111,10 +111,12 @@ TEST(Evaluate, CriticalDistanceTellsTouchingFromApart)
 
 TEST(Evaluate, ScalingMultipliesObjectsOrModels)
 {
-  const auto area = overall(evaluated({"-method", "classic_vfh", "-scaling", "area", "-times",
-                                       "1,3", "-scenes", "1", "-peers", "-memory", "torus"}));
+  const auto area =
+      overall(evaluated({"-method", "exclusion_vfh", "-treatment", "exclude", "-scaling", "area",
+                         "-times", "1,3", "-scenes", "1", "-peers", "-memory", "torus"}));
   ASSERT_EQ(area.size(), 2u);
   EXPECT_EQ(area[0].at("present") + area[1].at("present"), "13");
+  EXPECT_EQ(area[0].at("found") + area[1].at("found"), "13") << "all of the table is left out";
   EXPECT_NEAR(std::stod(area[1].at("scene_cells")), 3 * std::stod(area[0].at("scene_cells")),
               0.3 * std::stod(area[0].at("scene_cells")));
   for (const auto* measured : {"normals_ratio", "voxelgrid_ratio", "seconds"})
