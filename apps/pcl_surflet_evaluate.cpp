@@ -116,24 +116,21 @@ evaluateCritical(const Things& things, const Options& o)
         o);
 }
 
-/** \brief Scenes of \p factor times the area and the objects. */
+/** \brief Scenes of several times the area and the objects, and methods that know them: their empty
+ * scene is as large. */
 void
-evaluateArea(const Things& things, const Options& o)
+evaluateArea(const Things& things, const Options& base)
 {
-  const Methods methods = trained(things.objects, o);
-  for (const double factor : o.factors) {
-    const auto times = static_cast<std::size_t>(factor);
+  for (const double factor : base.factors) {
+    Options o = base;
+    o.recogniser.scene.size *= std::sqrt(factor);
+    o.recogniser.scene.present *= static_cast<std::size_t>(factor);
     std::vector<SceneItem> objects;
-    for (std::size_t k = 0; k < times; ++k)
+    for (int k = 0; k < factor; ++k)
       objects.insert(objects.end(), things.objects.begin(), things.objects.end());
     evaluateRow(
-        o.row + " " + number(factor), things.objects, methods,
-        [&](std::uint64_t k) {
-          SceneOptions scene = sceneOptions(o, k);
-          scene.size *= std::sqrt(factor);
-          scene.present *= times;
-          return generateScene(objects, things.clutter, scene);
-        },
+        o.row + " " + number(factor), things.objects, trained(things.objects, o),
+        [&](std::uint64_t k) { return generateScene(objects, things.clutter, sceneOptions(o, k)); },
         o);
   }
 }

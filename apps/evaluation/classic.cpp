@@ -125,24 +125,28 @@ class TabletopClassic::Impl {
 public:
   explicit Impl(const ClassicParameters& parameters) : parameters_(parameters) {}
 
-  void
+  bool
   learn(std::size_t object, const SurfletSet& cells)
   {
     const auto cloud = cloudOf(cells);
     const auto clusters = clustersIn(cloud, parameters_, kFewestPoints);
     if (clusters.empty())
-      throw std::invalid_argument("the classic sees no cluster in a scene it should learn from");
+      return false;
     const auto& largest = clusters.front().indices;
     smallest_ = std::min(smallest_, largest.size());
     objects_.push_back(object);
     const auto d = described(cloud, largest);
     width_ = d.size();
     examples_.insert(examples_.end(), d.begin(), d.end());
+    return true;
   }
 
   void
   finish()
   {
+    if (objects_.empty())
+      throw std::invalid_argument("the classic sees no cluster in any scene it should learn from; "
+                                  "give larger items or a smaller -leaf");
     index_ = std::make_unique<flann::Index<Metric>>(
         flann::Matrix<float>(examples_.data(), objects_.size(), width_),
         flann::LinearIndexParams());
@@ -222,10 +226,10 @@ TabletopClassic::TabletopClassic(const ClassicParameters& parameters)
 
 TabletopClassic::~TabletopClassic() = default;
 
-void
+bool
 TabletopClassic::learn(std::size_t object, const SurfletSet& cells)
 {
-  impl_->learn(object, cells);
+  return impl_->learn(object, cells);
 }
 
 void

@@ -46,11 +46,12 @@ public:
   ~TabletopClassic();
 
   /** \brief Takes the largest cluster of \p cells, a scene of one object, as example of \p object.
-   * \throws std::invalid_argument if there is no cluster */
-  void learn(std::size_t object, const SurfletSet& cells);
+   * \return false if there is no cluster: nothing is learned from things so thin or small */
+  bool learn(std::size_t object, const SurfletSet& cells);
 
   /** \brief To be called after the last learn(): builds the index and calibrates the distances.
-   * An object needs two examples. */
+   * An object needs two examples; one without any is never found.
+   * \throws std::invalid_argument if nothing was learned */
   void finish();
 
   std::vector<NamedCluster> find(const SurfletSet& cells) const;

@@ -7,6 +7,8 @@ using namespace pcl_surflet::test;
 
 namespace {
 
+class EvaluateFiles : public Apps {};
+
 using Line = std::map<std::string, std::string>;
 
 /** \brief Sparse scenes, coarse cells: seconds, and enough for simple shapes. */
@@ -111,10 +113,12 @@ TEST(Evaluate, CriticalDistanceTellsTouchingFromApart)
 
 TEST(Evaluate, ScalingMultipliesObjectsOrModels)
 {
-  const auto area = overall(evaluated({"-method", "classic_vfh", "-scaling", "area", "-times",
-                                       "1,3", "-scenes", "1", "-peers", "-memory", "torus"}));
+  const auto area =
+      overall(evaluated({"-method", "exclusion_vfh", "-treatment", "exclude", "-scaling", "area",
+                         "-times", "1,3", "-scenes", "1", "-peers", "-memory", "torus"}));
   ASSERT_EQ(area.size(), 2u);
   EXPECT_EQ(area[0].at("present") + area[1].at("present"), "13");
+  EXPECT_EQ(area[0].at("found") + area[1].at("found"), "13") << "all of the table is left out";
   EXPECT_NEAR(std::stod(area[1].at("scene_cells")), 3 * std::stod(area[0].at("scene_cells")),
               0.3 * std::stod(area[0].at("scene_cells")));
   for (const auto* measured : {"normals_ratio", "voxelgrid_ratio", "seconds"})
@@ -124,6 +128,20 @@ TEST(Evaluate, ScalingMultipliesObjectsOrModels)
   ASSERT_EQ(models.size(), 2u);
   EXPECT_EQ(models[0].at("models") + models[1].at("models"), "13");
   EXPECT_EQ(models[0].at("present") + models[1].at("present"), "11");
+}
+
+TEST_F(EvaluateFiles, ClassicPassesOverWhatIsTooSmallForItsCells)
+{
+  makeShapes();
+  const std::vector<std::string> coarse = {"-method",  "classic_vfh", "-leaf",   "0.03", "-csv",
+                                           "-density", "50000",       "-scenes", "1"};
+  auto small = coarse;
+  small.push_back(path("cup.off") + ":0.04");
+  EXPECT_TRUE(ended(run("evaluate", small), 2, {"-leaf"}));
+  small.push_back("torus");
+  const auto all = overall(run("evaluate", small));
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].at("found"), "1") << "the torus";
 }
 
 TEST(Evaluate, WhatDoesNotFitIsSaid)
