@@ -292,7 +292,11 @@ choose(Explaining& work, const std::vector<Segment>& candidates)
     done = (done + 1) / 2;
     const std::size_t before = choice.chosen().size();
     work.openExcept(choice.taken());
-    const auto rest = lookClosely(work, candidates);
+    // Places that two objects shared may lie between them: what is left is scanned afresh.
+    auto places = candidates;
+    const auto left = scan(work);
+    places.insert(places.end(), left.begin(), left.end());
+    const auto rest = lookClosely(work, places);
     work.openExcept(std::vector<char>(work.scene.cells.size(), 0));
     choice.add(rest);
     if (choice.chosen().size() != before)
