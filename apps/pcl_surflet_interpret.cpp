@@ -170,14 +170,36 @@ print(const std::string& path, const std::vector<SceneDetection>& detections,
     std::printf("%s: nothing found: %s\n", path.c_str(), diagnostics.reason.c_str());
 }
 
+using Count = unsigned long long;
+
+void
+printScene(const SceneDiagnostics& d)
+{
+  std::fprintf(stderr,
+               "points %zu, background %zu (planes %zu), cells %zu of %g, extent %g, largest model "
+               "%g\n",
+               d.points, d.background_points, d.planes, d.cells, d.leaf, d.extent, d.largest_model);
+}
+
+/** \brief What Method::Explanation did. */
+void
+printExplanations(const SceneDiagnostics& d)
+{
+  std::fprintf(stderr,
+               "background cells %zu\n"
+               "                 |       scan        |            choice           |\n"
+               "model            |  places promising | explained  no fit      lost | found\n",
+               d.background_cells);
+  for (const auto& m : d.models)
+    std::fprintf(stderr, "%-16.16s | %7zu %9zu | %9zu %7zu %9zu | %5zu\n", m.label.c_str(),
+                 m.places, m.promising, m.explanations, m.died_fit, m.lost, m.detections);
+}
+
+/** \brief What Method::Dissertation did. */
 void
 printSteps(const SceneDiagnostics& d)
 {
-  using Count = unsigned long long;
-  std::fprintf(stderr,
-               "points %zu, background %zu (planes %zu), cells %zu of %g, extent %g, largest model "
-               "%g\npairs drawn %llu, too long %llu, without feature %llu, background %llu\n",
-               d.points, d.background_points, d.planes, d.cells, d.leaf, d.extent, d.largest_model,
+  std::fprintf(stderr, "pairs drawn %llu, too long %llu, without feature %llu, background %llu\n",
                Count{d.drawn}, Count{d.too_long}, Count{d.featureless}, Count{d.background});
   std::fprintf(stderr,
                "                 |  1 selected       |  2 seeds  3 cleared | 4 lone  clusters |"
@@ -225,8 +247,10 @@ interpret(const std::string& path, Interpreter& interpreter, const Options& o)
   if (diagnostics.status > SceneStatus::Cancelled)
     throw DataError(diagnostics.reason);
   print(path, found, diagnostics, o.csv);
-  if (o.verbose)
-    printSteps(diagnostics);
+  if (o.verbose) {
+    printScene(diagnostics);
+    (o.method == Method::Explanation ? printExplanations : printSteps)(diagnostics);
+  }
   writeResults(path, scene, found, o);
 }
 
@@ -276,7 +300,7 @@ addOptions(CommandLine& line, Options& o)
   line.text("-picture", "OUT.png", "the scene with its objects coloured and named; one scene only",
             o.picture);
   line.flag("-csv", "prints CSV", o.csv);
-  line.flag("-verbose", "prints what each step did to stderr", o.verbose);
+  line.flag("-verbose", "prints what each step did for each model to stderr", o.verbose);
   addNeighbours(line, o.neighbours);
   addSeed(line, o.seed);
   addThreads(line, o.threads);

@@ -35,7 +35,7 @@ TEST_F(Interpret, FindsWhatWasPutThere)
   const AppRun r = run("interpret", {"-database", path("db.pcd"), "-background", "exclude",
                                      "-empty", path("e.pcd"), "-leaf", "0.008", "-csv", "-verbose",
                                      "-out", path("labelled.pcd"), path("s.pcd")});
-  ASSERT_TRUE(ended(r, 0, {"drawn", "bottle", "torus"}));
+  ASSERT_TRUE(ended(r, 0, {"promising", "bottle", "torus"}));
   const auto table = parseCsv(r.out);
   const auto truth = parseCsv(readFile(path("p.csv")));
   ASSERT_EQ(table.size(), 3u);

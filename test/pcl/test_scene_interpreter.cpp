@@ -136,7 +136,7 @@ TEST(SceneInterpreter, NamesObjectsAndTheirPoints)
   auto interpreter = ready();
   const auto found = interpreter.interpret();
   ASSERT_EQ(found.size(), 2u);
-  EXPECT_GT(interpreter.getDiagnostics().drawn, 0u);
+  EXPECT_GT(interpreter.getDiagnostics().models[0].places, 0u);
   for (const auto& d : found) {
     EXPECT_EQ(d.label, database()[d.model].label);
     EXPECT_TRUE(std::is_sorted(d.indices.begin(), d.indices.end()));

@@ -98,12 +98,13 @@ struct World {
   ExplanationParameters parameters = quick();
   bool cancelled = false;
   ProgressReport progress{parameters.steps.progress, cancelled};
+  InterpretationDiagnostics diagnostics;
   Explaining work;
 
   World(const SurfletSet& set, ModelDatabase d, bool background = false)
       : cells(set), database(std::move(d)), source(cells),
         models(sceneModels(database, background, source.scale())), scene{cells, source, models},
-        work(scene, parameters, progress)
+        diagnostics(emptyDiagnostics(database)), work(scene, parameters, progress, diagnostics)
   {
   }
 
@@ -402,6 +403,33 @@ TEST(InterpretationByExplanation, FindsEveryThingOnce)
   }
   for (const auto& item : scene.items)
     EXPECT_TRUE(isFound(item, found.detections)) << item.label;
+}
+
+TEST(InterpretationByExplanation, TellsWhatBecameOfEveryModel)
+{
+  const auto scene = generateScene({things()[0]}, {things()[3]}, [] {
+    auto o = options(Background::Plane);
+    o.clutter = 1;
+    return o;
+  }());
+  auto p = quick();
+  p.steps.background = BackgroundTreatment::Model;
+  const auto cells = reduced(scene.surflets);
+  const auto d = interpretByExplanation(cells, models(3, true), p).diagnostics;
+  EXPECT_GT(d.background_cells, cells.size() / 2);
+  EXPECT_LT(d.background_cells, cells.size());
+  ASSERT_EQ(d.models.size(), 4u);
+  std::size_t unfit = 0;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const auto& m = d.models[k];
+    EXPECT_GT(m.places, 0u);
+    EXPECT_EQ(m.explanations, m.died_fit + m.lost + m.detections) << m.label;
+    EXPECT_EQ(m.detections, k == 0 ? 1u : 0u) << m.label;
+    unfit += m.died_fit;
+  }
+  EXPECT_GT(unfit, 0u) << "the die resembles something a little";
+  EXPECT_GT(d.models[0].promising, 0u);
+  EXPECT_EQ(d.models[3].places, 0u) << "a background is not looked for";
 }
 
 TEST(InterpretationByExplanation, FindsTwoInstancesOfOneObject)

@@ -54,9 +54,20 @@ struct DissertationParameters {
   std::function<bool(double)> progress;
 };
 
-/** \brief What the steps did for one model. Each count is what was left or lost at that point. */
+/** \brief What an interpretation did for one model. Each count is what was left or lost at that
+ * point; what the other method counts is 0. */
 struct ModelDiagnostics {
   std::string label;
+  /** \name interpretByExplanation(), which tries again on what the first choice left over
+   * explanations = died_fit + lost + detections */
+  ///@{
+  std::size_t places = 0;       ///< where the model was tried
+  std::size_t promising = 0;    ///< rough segments that the scan left
+  std::size_t explanations = 0; ///< that a closer look at these gave, in all rounds
+  std::size_t died_fit = 0;     ///< of these: fit less than junk_fit
+  ///@}
+  /** \name interpretByDissertation() */
+  ///@{
   double threshold = 0;              ///< step 1: Hbar of Eq. 5.3
   std::uint64_t pairs = 0;           ///< step 1: pairs selected for the model
   std::size_t surflets = 0;          ///< step 1: surflets of those pairs, each counted once
@@ -70,7 +81,9 @@ struct ModelDiagnostics {
   std::size_t died_small = 0;        ///< step 6: below the minimum
   std::size_t died_relative = 0;     ///< step 6: too small beside the model's largest
   std::size_t merged = 0;            ///< step 7: joined with another cluster of the model
-  std::size_t lost = 0;              ///< step 7: lost a competition
+  ///@}
+  /** \brief Step 7: lost a competition. Explanations: others explain their cells better. */
+  std::size_t lost = 0;
   std::size_t detections = 0;
 };
 
@@ -80,6 +93,7 @@ struct InterpretationDiagnostics {
   std::uint64_t too_long = 0; ///< step 1: of these, longer than any model
   std::uint64_t featureless = 0;
   std::uint64_t background = 0;         ///< step 1: pairs that are most likely background
+  std::size_t background_cells = 0;     ///< by explanation: cells voted background
   std::vector<ModelDiagnostics> models; ///< in the order of the database
 };
 
@@ -172,8 +186,7 @@ struct ExplanationParameters {
  * those that no object can have.
  *
  * Models should be trained by trainForScenes() with seven intervals in every dimension; with five
- * too few bins are empty. Results and limits are in doc/interpretation/results.md. Of the
- * diagnostics, this method fills the number of detections.
+ * too few bins are empty. Results and limits are in doc/interpretation/results.md.
  *
  * Exceptions and \p cells as in interpretByDissertation(). */
 PCL_SURFLET_API SceneInterpretation

@@ -147,8 +147,12 @@ void
 Choice::add(const std::vector<Explanation>& candidates)
 {
   for (const auto& e : candidates) {
-    if (e.fit < work_.parameters.junk_fit)
+    ModelDiagnostics& d = work_.diagnosticsOf(e.model);
+    ++d.explanations;
+    if (e.fit < work_.parameters.junk_fit) {
+      ++d.died_fit;
       continue;
+    }
     auto trial = chosen_;
     trial.push_back(e);
     takeIfBetter(std::move(trial));

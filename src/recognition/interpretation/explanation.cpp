@@ -90,10 +90,21 @@ detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
   return d;
 }
 
+/** \brief What was found; the other explanations that fitted lost. */
+void
+countDetections(SceneInterpretation& result)
+{
+  for (const auto& d : result.detections)
+    ++result.diagnostics.models[d.model].detections;
+  for (auto& m : result.diagnostics.models)
+    m.lost = m.explanations - m.died_fit - m.detections;
+}
+
 } // namespace
 
-Explaining::Explaining(const SceneData& s, const ExplanationParameters& p, ProgressReport& r)
-    : scene(s), parameters(p), progress(r), memory(resolveThreads(p.steps.threads))
+Explaining::Explaining(const SceneData& s, const ExplanationParameters& p, ProgressReport& r,
+                       InterpretationDiagnostics& d)
+    : scene(s), parameters(p), progress(r), diagnostics(d), memory(resolveThreads(p.steps.threads))
 {
   openExcept(std::vector<char>(s.cells.size(), 0));
 }
@@ -160,11 +171,12 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   ProgressReport progress(p.steps.progress, result.diagnostics.cancelled);
   if (!progress.goesOn(0))
     return result;
-  Explaining work(scene, p, progress);
+  Explaining work(scene, p, progress, result.diagnostics);
   if (p.steps.background != BackgroundTreatment::Exclude) {
     work.background = modelled ? voteForBackground(scene, work.open, p)
                                : voteForUniformBackground(scene, work.open, p);
     work.openExcept(std::vector<char>(cells.size(), 0));
+    result.diagnostics.background_cells = cells.size() - work.open.size();
   }
   const auto candidates = progress.goesOn(kBackgroundKnown) ? scan(work) : std::vector<Segment>();
   auto chosen = choose(work, candidates);
@@ -172,8 +184,7 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
     return result;
   for (auto& e : chosen)
     result.detections.push_back(detectionOf(scene, std::move(e), p.steps.seed));
-  for (const auto& d : result.detections)
-    ++result.diagnostics.models[d.model].detections;
+  countDetections(result);
   return result;
 }
 

@@ -22,12 +22,13 @@ struct Explaining {
   const SceneData& scene;
   const ExplanationParameters& parameters;
   ProgressReport& progress;
+  InterpretationDiagnostics& diagnostics;
   std::vector<char> background;      ///< one entry a cell, or none
   LinearOctree open;                 ///< the cells that nothing explains yet
   std::vector<SupportMemory> memory; ///< one a thread
 
   Explaining(const SceneData& scene, const ExplanationParameters& parameters,
-             ProgressReport& progress);
+             ProgressReport& progress, InterpretationDiagnostics& diagnostics);
 
   /** \brief Leaves those cells open that are neither taken nor background. */
   void openExcept(const std::vector<char>& taken);
@@ -35,6 +36,11 @@ struct Explaining {
   radiusOf(std::size_t model) const
   {
     return parameters.reach * scene.models.all[model].model->r_max;
+  }
+  ModelDiagnostics&
+  diagnosticsOf(std::size_t model)
+  {
+    return diagnostics.models[scene.models.all[model].index];
   }
 };
 

@@ -143,6 +143,10 @@ scan(Explaining& work)
     });
     found = best(work, std::move(found), kLeastRoughFit);
   }
+  for (std::size_t k = 0; k < work.scene.models.objects; ++k)
+    work.diagnosticsOf(k).places += places.size();
+  for (const auto& s : found)
+    ++work.diagnosticsOf(s.model).promising;
   return found;
 }
 
