@@ -5,6 +5,7 @@
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/database_file.h"
 #include "pcl_surflet/model_bank_trainer.h"
+#include "pcl_surflet/recognition/scene_training.h"
 #include "pcl_surflet/surface_file.h"
 
 #include <cerrno>
@@ -29,6 +30,7 @@ struct Options {
   bool background = false;
   Resolution resolution;
   ModelBank bank = ModelBank::none();
+  double leaf = 0;
   std::uint64_t pairs = 10000000, seed = 1, threads = 0, neighbours = 0;
   std::vector<std::string> files;
 };
@@ -50,6 +52,19 @@ parseResolution(const std::string& text)
   if (const auto problem = resolution.problem(); !problem.empty())
     throw UsageError("option -bins: " + problem);
   return resolution;
+}
+
+/** \brief Training for scenes is of one histogram from all pairs of an object's cells. */
+void
+checkLeaf(const CommandLine& line, const Options& o)
+{
+  if (o.leaf > 0 && !o.bank.conditions.empty())
+    throw UsageError("option -leaf goes with -bank none: scenes are searched for whole objects");
+  if (o.leaf > 0 && line.given("-pairs"))
+    throw UsageError("option -pairs does not go with -leaf, which decides how many there are");
+  if (o.leaf > 0 && o.background)
+    throw UsageError("option -background does not go with -leaf, which leaves out what objects "
+                     "lose in cells; train backgrounds apart");
 }
 
 /** \brief What option -bank names. */
@@ -89,15 +104,9 @@ checkLabels(const Options& o)
                        at->first + "'; train them one by one with option -label");
 }
 
-/** \return false if help was asked for */
-bool
-readOptions(int argc, char** argv, Options& o)
+void
+addOptions(CommandLine& line, Options& o)
 {
-  CommandLine line(kProgram, "FILE...",
-                   "Trains one model per file (PCD, PLY, OBJ, STL, OFF), labelled with the file's "
-                   "name\nwithout ending, and adds them to a database or replaces those of the "
-                   "same label.\nClouds need normals (see -k); clouds of uneven density are evened "
-                   "out.");
   line.text("-database", "DB.pcd", "the database; made if it does not exist (required)",
             o.database);
   line.text("-label", "NAME", "label of the model, for a single file", o.label);
@@ -110,15 +119,33 @@ readOptions(int argc, char** argv, Options& o)
               [&o](const std::string& name) { o.bank = bankNamed(name); });
   line.count("-pairs", "N", "pairs drawn from a cloud, default 10000000 (meshes: all pairs)",
              o.pairs, 1, 1000000000000ULL);
+  line.real("-leaf", "S",
+            "for pcl_surflet_interpret with cells of this edge (best with -bins 7,7,7,7): learns "
+            "what of an object is left in such cells. Clouds should have several points a cell; "
+            "meshes are sampled so. Default none: for single objects",
+            o.leaf, 1e-9, 1e9);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
   addNeighbours(line, o.neighbours);
+}
+
+/** \return false if help was asked for */
+bool
+readOptions(int argc, char** argv, Options& o)
+{
+  CommandLine line(kProgram, "FILE...",
+                   "Trains one model per file (PCD, PLY, OBJ, STL, OFF), labelled with the file's "
+                   "name\nwithout ending, and adds them to a database or replaces those of the "
+                   "same label.\nClouds need normals (see -k); clouds of uneven density are evened "
+                   "out.");
+  addOptions(line, o);
   if (!line.parse(argc, argv))
     return false;
   line.require("-database");
   line.requireFiles(1, std::numeric_limits<std::size_t>::max());
   o.files = line.files();
   checkLabels(o);
+  checkLeaf(line, o);
   return true;
 }
 
@@ -160,18 +187,43 @@ trainerFor(const Options& o)
 
 /** \brief Says what of the file was not used as it is. */
 void
-noteLosses(const std::string& path, const SurfaceFile& file)
+noteLosses(const Options& o, const std::string& path, const SurfaceFile& file)
 {
   if (file.rejected > 0)
     note(path + ": " + std::to_string(file.rejected) +
          " points left out (not finite or without usable normal)");
-  if (!file.mesh && surfaceDensity(file.surflets).contrast >= kUnevenContrast)
+  if (!file.mesh && o.leaf == 0 && surfaceDensity(file.surflets).contrast >= kUnevenContrast)
     note(path + ": uneven density evened out, one mean surflet per cell");
 }
 
+/** \brief About as many surflets as give every cell that the mesh meets several.
+ * \throws DataError if there would be too many */
+std::size_t
+surfletsFor(const TriangleMesh& mesh, double leaf)
+{
+  constexpr double kPerSquare = 16; // of an edge: a dozen a cell
+  constexpr double kFewest = 1000, kMost = 10000000;
+  const double wanted = kPerSquare * surfaceArea(mesh) / (leaf * leaf);
+  if (wanted > kMost)
+    throw DataError("its surface has more than " + number(kMost / kPerSquare) +
+                    " cells of that edge; give a larger -leaf in the unit of the mesh");
+  return static_cast<std::size_t>(std::max(wanted, kFewest));
+}
+
+HistogramModel
+modelOf(const Options& o, const std::string& label, const SurfaceFile& file)
+{
+  if (o.leaf > 0) {
+    const std::size_t wanted = file.mesh ? surfletsFor(*file.mesh, o.leaf) : 0;
+    return trainForScenes(trainerFor(o), label, surfletsOf(file, wanted, o.seed), o.leaf, o.seed,
+                          static_cast<unsigned>(o.threads));
+  }
+  const ModelBankTrainer trainer(trainerFor(o), o.bank);
+  return file.mesh ? trainer.train(label, *file.mesh) : trainer.train(label, file.surflets);
+}
+
 void
-trainFile(const Options& o, const ModelBankTrainer& trainer, const std::string& path,
-          ModelDatabase& database)
+trainFile(const Options& o, const std::string& path, ModelDatabase& database)
 {
   SurfaceFileOptions loading;
   loading.estimate_normals = static_cast<int>(o.neighbours);
@@ -180,9 +232,8 @@ trainFile(const Options& o, const ModelBankTrainer& trainer, const std::string& 
   const std::string label = o.label.empty() ? stemOf(path) : o.label;
   if (label.size() > HistogramModel::kMaxLabelBytes)
     throw DataError("'" + path + "': its name is longer than the 63 bytes of a label; give -label");
-  HistogramModel model =
-      file.mesh ? trainer.train(label, *file.mesh) : trainer.train(label, file.surflets);
-  noteLosses(path, file);
+  HistogramModel model = modelOf(o, label, file);
+  noteLosses(o, path, file);
   const std::uint64_t features = model.members.front().features;
   const std::size_t members = model.members.size();
   const bool replaced = database.replace(std::move(model));
@@ -198,13 +249,12 @@ train(int argc, char** argv)
   if (!readOptions(argc, argv, o))
     return kOk;
   ModelDatabase database = openDatabase(o);
-  const ModelBankTrainer trainer(trainerFor(o), o.bank);
   Progress progress(o.files.size());
   std::size_t failed = 0;
   for (std::size_t i = 0; i < o.files.size(); ++i) {
     progress.show(i, o.files[i]);
     try {
-      trainFile(o, trainer, o.files[i], database);
+      trainFile(o, o.files[i], database);
     }
     catch (const std::exception& error) {
       complain(std::string(kProgram) + ": " + about(o.files[i], error.what()));

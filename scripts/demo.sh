@@ -10,6 +10,7 @@ bin=build/release/bin
 out=out/demo/scene
 rm -rf "$out"
 mkdir -p "$out"
+leaf=0.006 # edge of the cells in metres: models are trained for those of the scene
 
 # Names are those of the files; sizes in metres, and which axis of the mesh points up.
 cp "$meshes/bunny00.off" "$out/bunny.off"
@@ -18,10 +19,10 @@ cp "$meshes/camel.off" "$out/camel.off"
 items=(bottle carafe cup wine_glass "$out/bunny.off:0.2:y" "$out/dragon.off:0.3:y"
   "$out/camel.off:0.28:y")
 
-"$bin/pcl_surflet_generate" -seed "${SEED:-3}" -out "$out/scene.pcd" -poses "$out/truth.csv" \
+"$bin/pcl_surflet_generate" -seed "${SEED:-1}" -out "$out/scene.pcd" -poses "$out/truth.csv" \
   -models "$out/models" -clutter cone "${items[@]}"
-"$bin/pcl_surflet_train" -database "$out/objects.pcd" -bins 7,7,7,7 "$out"/models/*.off
-"$bin/pcl_surflet_interpret" -database "$out/objects.pcd" -background exclude -planes 1 -verbose \
+"$bin/pcl_surflet_train" -database "$out/objects.pcd" -bins 7,7,7,7 -leaf "$leaf" "$out"/models/*.off
+"$bin/pcl_surflet_interpret" -database "$out/objects.pcd" -leaf "$leaf" -background exclude -planes 1 -verbose \
   -out "$out/labelled.pcd" -objects_dir "$out/objects" -picture "$out/scene.png" "$out/scene.pcd"
 echo "Picture, labelled cloud and objects: $out"
 

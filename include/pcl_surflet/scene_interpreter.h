@@ -29,7 +29,8 @@ struct SceneDetection : Detection {
   /** \brief Its points in the input cloud, ascending: those of its cells, and those of thin walls,
    * whose cells have no normal, beside them. */
   pcl::Indices indices;
-  /** \brief In [0, 1]; see detail::confidenceOf(). Not a probability: it is not calibrated. */
+  /** \brief How often such a detection is right among unknown objects, in [0, 1]; see
+   * detail::confidenceOf(). */
   double confidence = 0;
   /** \brief Its cells, relative to those that the model's whole surface is expected to occupy; see
    * detail::coverageOf(). NaN if the model's area is unknown: it was trained from points. */
@@ -122,16 +123,23 @@ PCL_SURFLET_API SurfletSet backgroundCells(const SurfletSet& background,
 
 /** \brief How sure a detection is, in [0, 1].
  *
- * 1 / (1 + exp(-10 score)) is the posterior of its model against what speaks against it, were ten
- * of its features independent evidence (score: nats per feature above all models, or above the best
- * other one by the dissertation's steps). It is multiplied by the histogram's intersection with
- * the model's (fit, where the method has it) and by n / (n + min_cluster) for n cells, since few
- * cells prove little. Grows with score, fit and cells, but is no calibrated probability. */
+ * Method::Explanation: the share of detections of such fit and score that are right where unknown
+ * objects are as frequent as known ones, 1 / (1 + exp(31.5 - 30 fit - 15 s)) with the score s
+ * limited to [0, 1]; without any rival, whose score is 0, 1 / (1 + exp(26.3 - 31 fit)). Fitted to
+ * 22 generated scenes of four of seven models and five unknown things, apart and piled up, with
+ * min_fit 0.5 so that the unknown got names: 169 detections, 78 right. On 22 others, 170
+ * detections: right were 70 of 70 above 0.95, 2 of 5 from 0.5 to 0.95, 4 of 25 from 0.2 to 0.5
+ * (mean 0.36) and 7 of 70 below 0.2 (mean 0.04), nearly all of these
+ * eleven being the wine glass. With fewer unknown things than that it is too cautious.
+ *
+ * Method::Dissertation, which has no fit: 1 / (1 + exp(-10 score)), the posterior against the best
+ * rival were ten features independent, times n / (n + min_cluster) for n cells. Not calibrated. */
 PCL_SURFLET_API double confidenceOf(const Detection& detection, std::size_t min_cluster);
 
-/** \brief \p cells relative to those that a surface of \p area occupies: 1.5 area / leaf^2, the
- * mean over all directions of a plane. Thin walls share cells, so that vessels reach about 0.8;
- * above 1 the detection holds more than the object. NaN if the area is not positive. */
+/** \brief \p cells relative to those that a surface of \p area occupies, 1.27 area / leaf^2 on
+ * average: the definition by which trainForScenes() sets HistogramModel::surface_area. Of models
+ * trained otherwise the area is that of the mesh, and thin walls share cells: vessels reach less
+ * than 1. Above 1 the detection holds more than the object. NaN if the area is not positive. */
 PCL_SURFLET_API double coverageOf(std::size_t cells, double area, double leaf);
 
 } // namespace detail
@@ -237,7 +245,8 @@ public:
   {
     request_.leaf = leaf;
   }
-  /** \brief All other constants; replaces background, seed, threads and progress too.
+  /** \brief All other constants; replaces background, seed, threads and progress too, but its leaf
+   * is that of setLeafSize().
    * Method::Dissertation takes its steps. */
   void
   setParameters(const ExplanationParameters& parameters)

@@ -4,6 +4,7 @@
 
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/linear_octree.h"
+#include "recognition/interpretation/scene_models.h"
 
 #include <algorithm>
 #include <array>
@@ -22,6 +23,9 @@ constexpr double kMuchSmaller = 20;
 
 /** \brief From this share of pairs longer than every model on, the scene is called too large. */
 constexpr double kMuchTooLong = 0.999;
+
+/** \brief With fewer cells than this at a place where models are tried, it is called so as well. */
+constexpr std::size_t kFewCells = 5;
 
 /** \brief The cell of every point. Cells of thin walls, whose normals cancel, are none: their
  * points go with the nearest cell, if there is one within a leaf. */
@@ -113,6 +117,19 @@ muchTooSmall(const SceneDiagnostics& d, const SizeRange& sizes)
   return d.extent * kMuchSmaller < sizes.smallest;
 }
 
+/** \brief Is hardly anything so near to anything else that a model could hold both? Places are as
+ * large as the smallest object; its cells are many. */
+bool
+muchTooLarge(const SceneDiagnostics& d)
+{
+  std::size_t places = 0;
+  for (const auto& m : d.models)
+    places = std::max(places, m.places);
+  return d.cells - d.background_cells < kFewCells * places ||
+         (d.drawn > 0 &&
+          static_cast<double>(d.too_long) >= kMuchTooLong * static_cast<double>(d.drawn));
+}
+
 /** \brief Why there is no detection, as far as the counts tell. */
 std::string
 whyNothing(const SceneDiagnostics& d, const SizeRange& sizes)
@@ -126,9 +143,9 @@ whyNothing(const SceneDiagnostics& d, const SizeRange& sizes)
   if (muchTooSmall(d, sizes))
     return text("the scene measures %g, the smallest model %g: are both in the same unit?",
                 d.extent, sizes.smallest);
-  if (d.drawn > 0 && static_cast<double>(d.too_long) >= kMuchTooLong * static_cast<double>(d.drawn))
-    return text("nearly all pairs of the scene, which measures %g, are longer than the largest "
-                "model, %g: are both in the same unit, is it sensed densely?",
+  if (muchTooLarge(d))
+    return text("hardly anything of the scene, which measures %g, has its like within the size of "
+                "a model, %g at most: are both in the same unit, is it sensed densely?",
                 d.extent, sizes.largest);
   return "no model explains a part of the scene well enough: the counts of the models tell where "
          "they failed";
@@ -163,11 +180,13 @@ describe(const SceneInterpretation& result, const SizeRange& sizes, SceneDiagnos
 
 SceneInterpretation
 interpretCells(const SurfletSet& cells, const ModelDatabase& database,
-               const detail::InterpreterRequest& request)
+               const detail::InterpreterRequest& request, double leaf)
 {
+  ExplanationParameters parameters = request.parameters;
+  parameters.leaf = leaf;
   return request.method == Method::Dissertation
-             ? interpretByDissertation(cells, database, request.parameters.steps)
-             : interpretByExplanation(cells, database, request.parameters);
+             ? interpretByDissertation(cells, database, parameters.steps)
+             : interpretByExplanation(cells, database, parameters);
 }
 
 } // namespace
@@ -186,18 +205,22 @@ detail::leafOf(double leaf, const ModelDatabase& database)
 double
 detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
 {
-  constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
-  const double posterior = 1 / (1 + std::exp(-kIndependent * detection.score));
-  const double fit = detection.fit > 0 ? std::min(detection.fit, 1.0) : 1;
+  const auto logistic = [](double x) { return 1 / (1 + std::exp(-x)); };
   const auto n = static_cast<double>(detection.cells.size());
-  return n > 0 ? posterior * fit * n / (n + static_cast<double>(min_cluster)) : 0;
+  if (n == 0)
+    return 0;
+  if (detection.fit > 0 && detection.score == 0) // nothing to compare with
+    return logistic(31 * detection.fit - 26.3);
+  if (detection.fit > 0)
+    return logistic(30 * detection.fit + 15 * std::clamp(detection.score, 0.0, 1.0) - 31.5);
+  constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
+  return logistic(kIndependent * detection.score) * n / (n + static_cast<double>(min_cluster));
 }
 
 double
 detail::coverageOf(std::size_t cells, double area, double leaf)
 {
-  constexpr double kCellsPerLeafSquare = 1.5; // mean of |nx| + |ny| + |nz| over all directions
-  return area > 0 ? static_cast<double>(cells) * leaf * leaf / (kCellsPerLeafSquare * area)
+  return area > 0 ? static_cast<double>(cells) * leaf * leaf / (interpretation::kCellsOfArea * area)
                   : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -215,7 +238,7 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
   diagnostics.largest_model = sizes.largest;
   // Also an absurd scene is interpreted, as none: parameters and database are checked there.
   auto result = interpretCells(muchTooSmall(diagnostics, sizes) ? SurfletSet() : reduction.cells,
-                               database, request);
+                               database, request, leaf);
   describe(result, sizes, diagnostics);
   keepLargest(request.max_detections, result.detections);
   std::vector<SceneDetection> detections(result.detections.size());

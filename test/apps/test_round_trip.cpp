@@ -144,6 +144,25 @@ TEST_F(RoundTrip, TrainAddsReplacesAndSaysSo)
   EXPECT_EQ(table[2][1], "background");
 }
 
+TEST_F(RoundTrip, TrainsForScenesFromMeshesAndClouds)
+{
+  makeShapes();
+  const auto for_scenes = [&](const std::string& leaf, std::vector<std::string> files) {
+    files.insert(files.begin(), {"-database", path("db.pcd"), "-leaf", leaf});
+    return run("train", files);
+  };
+  ASSERT_TRUE(ended(for_scenes("0.01", {path("ball.pcd"), path("cup.off")}), 0, {"added 'cup'"}));
+  const Table table = info();
+  ASSERT_EQ(table.size(), 3u);
+  for (std::size_t row = 1; row < 3; ++row) {
+    EXPECT_EQ(table[row][3], "complete, cells");
+    EXPECT_GT(std::stod(table[row][9]), 0.01) << "of points the area is known, too";
+  }
+  EXPECT_TRUE(ended(for_scenes("1", {path("ball.pcd")}), 2, {path("ball.pcd"), "smaller cells"}));
+  EXPECT_TRUE(
+      ended(for_scenes("0.00001", {path("cup.off")}), 2, {path("cup.off"), "larger -leaf"}));
+}
+
 TEST_F(RoundTrip, BinsOfTheDatabaseRule)
 {
   makeShapes();

@@ -5,9 +5,9 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train",    "classify",       "feature",  "info",       "reduce",
-                             "generate", "generate_shape", "evaluate", "experiment", "interpret",
-                             "view",     "search"};
+const char* const kApps[] = {"train",      "classify",  "feature",        "info",
+                             "reduce",     "generate",  "generate_shape", "evaluate",
+                             "experiment", "interpret", "view",           "search"};
 
 struct WrongLine {
   const char* app;
@@ -45,8 +45,8 @@ TEST(Usage, HelpNamesEveryOption)
 {
   const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
       {"train",
-       {"-database", "-label", "-background", "-bins", "-bank", "-pairs", "-seed", "-threads",
-        "-k"}},
+       {"-database", "-label", "-background", "-bins", "-bank", "-pairs", "-leaf", "-seed",
+        "-threads", "-k"}},
       {"classify",
        {"-database", "-criterion", "-features", "-top", "-unknown", "-scale_normalized", "-seed",
         "-threads", "-k", "-csv"}},
@@ -57,11 +57,11 @@ TEST(Usage, HelpNamesEveryOption)
         "-threads", "-k", "-csv"}},
       {"reduce", {"-leaf", "-min_normal", "-csv"}},
       {"evaluate",
-       {"-method",   "-treatment", "-scenes",   "-bins",       "-leaf",         "-pairs",
-        "-lambda_h", "-lambda_o",  "-lambda_c", "-min_fit",    "-on_surfaces",
-        "-present",  "-clutter",   "-unknown",  "-background", "-density",      "-noise",
-        "-csv",      "-verbose",   "-seed",     "-threads",    "-row",          "-peers",
-        "-memory",   "-critical",  "-scaling",  "-times",      "-extra",        "classic_vfh"}},
+       {"-method",   "-treatment", "-scenes",     "-bins",    "-leaf",        "-pairs",
+        "-lambda_h", "-lambda_o",  "-lambda_c",   "-min_fit", "-on_surfaces", "-present",
+        "-clutter",  "-unknown",   "-background", "-density", "-noise",       "-csv",
+        "-verbose",  "-seed",      "-threads",    "-row",     "-peers",       "-memory",
+        "-critical", "-scaling",   "-times",      "-extra",   "classic_vfh"}},
       {"interpret",
        {"-database", "-method", "-background", "-empty", "-planes", "-distance", "-leaf", "-max",
         "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads"}},
@@ -87,6 +87,9 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
       {{"train", {"a.pcd"}, "-database"},
        {"train", {"-database", "d.pcd"}, "FILE"},
        {"train", {}, "-database"},
+       {"train", {"-database", "d.pcd", "-leaf", "0.1", "-bank", "default", "a.off"}, "-bank"},
+       {"train", {"-database", "d.pcd", "-leaf", "0.1", "-pairs", "1000", "a.off"}, "-pairs"},
+       {"train", {"-database", "d.pcd", "-leaf", "0.1", "-background", "a.off"}, "-background"},
        {"classify", {"a.pcd"}, "-database"},
        {"classify", {"-database", "d.pcd"}, "FILE"},
        {"feature", {"a.pcd"}, "OUT.pcd"},
