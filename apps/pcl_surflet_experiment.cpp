@@ -19,7 +19,7 @@ constexpr const char* kProgram = "pcl_surflet_experiment";
 /** \brief The options of all experiments: an option may stand before the NAME it belongs to, so the
  * line is read before the experiment is known. */
 struct Options {
-  std::string meshes, out, objects, peers = peerNames();
+  std::string meshes, out, objects, peers = peerNames(), strangers = strangerNames();
   std::uint64_t tests = 0; ///< 0: the experiment's own number
   std::uint64_t intervals = ChapterOptions().intervals, saturations = SpaceOptions().saturations,
                 radii = SpaceOptions().radii, queries = SpaceOptions().queries, seed = 1,
@@ -47,7 +47,8 @@ ofChapter3(const char* name, const char* help, std::uint64_t tests,
     return run({{o.meshes, o.out, labels, number, o.seed, o.threads},
                 o.normal_radius,
                 o.intervals,
-                namesIn(o.peers)});
+                namesIn(o.peers),
+                namesIn(o.strangers)});
   };
   return {name, help, tests, {"-meshes", "-out"}, allowed, start};
 }
@@ -69,6 +70,8 @@ experiments()
                  20, runDistortion, {"-intervals"}),
       ofChapter3("peers", "our recognisers beside PCL's global descriptors, same queries", 50,
                  runPeers, {"-peers"}),
+      ofChapter3("rejection", "unknown objects: how many strangers a model bank accepts", 5,
+                 runRejection, {"-strangers"}),
       {"space",
        "Exp. 4.6, Fig. 4.8: region search in a uniform cube; times and memory",
        0,
@@ -119,6 +122,8 @@ addChapter3Options(CommandLine& line, Options& o)
              "elongation, distortion: steps, default " + std::to_string(o.intervals), o.intervals,
              1, 1000);
   line.text("-peers", "LIST", "peers: descriptors that take part, default " + o.peers, o.peers);
+  line.text("-strangers", "LIST", "rejection: meshes that are not in the database, by commas",
+            o.strangers);
 }
 
 CommandLine
