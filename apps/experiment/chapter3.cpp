@@ -499,7 +499,7 @@ runRejection(const ChapterOptions& options)
   makeDirectory(o.out);
   const auto known = loadObjects(o.meshes, o.labels);
   const auto strange = loadObjects(o.meshes, options.strangers);
-  const TrialPlan plan{peerSettings(), o.tests, o.seed, static_cast<unsigned>(o.threads)};
+  const TrialPlan plan{peerSettings(), o.tests, o.seed, static_cast<unsigned>(o.threads), 0};
   const HistogramClassifier classifier(
       withProgress<ModelDatabase>(known.size(), [&](const auto& show) {
         return trainBanks({known, o.seed, plan.threads, show});

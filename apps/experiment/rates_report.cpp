@@ -146,8 +146,11 @@ reportRates(const RatesExperiment& experiment, const RatesOptions& options)
   const auto recognisers = withProgress<Recognisers>(objects.size(), [&](const auto& show) {
     return experiment.recognisers({objects, options.seed, threads, show});
   });
-  const TrialPlan plan{experiment.settings, options.tests, options.seed, threads};
-  Rates rates{objects, recognisers, experiment.settings, {}};
+  const std::size_t first = std::min<std::size_t>(options.skip, experiment.settings.size());
+  const std::vector<Setting> settings(
+      experiment.settings.begin() + static_cast<std::ptrdiff_t>(first), experiment.settings.end());
+  const TrialPlan plan{settings, options.tests, options.seed, threads, first};
+  Rates rates{objects, recognisers, settings, {}};
   const std::string base = options.out + "/" + experiment.name;
   const auto keep = [&](const Tallies& done) {
     rates.tallies = done;

@@ -36,6 +36,7 @@ struct RatesOptions {
   std::vector<std::string> labels; ///< the objects
   std::uint64_t tests = 100;       ///< per object and setting
   std::uint64_t seed = 1, threads = 0;
+  std::uint64_t skip = 0; ///< settings left out at the start: a run that was ended goes on
 };
 
 /** \brief Trains, tries, prints the rates with their 95 % intervals, writes NAME.csv and

@@ -229,8 +229,8 @@ runTrials(const std::vector<ExperimentObject>& objects, const Recognisers& recog
     std::vector<std::vector<Answer>> answers(objects.size() * plan.tests);
     parallelFor(answers.size(), plan.threads, [&](std::size_t i, unsigned) {
       const std::size_t o = i / plan.tests, t = i % plan.tests;
-      answers[i] = answersTo(objects[o], plan.settings[s], querySeed(plan.seed, s, o, t),
-                             recognisers, estimate);
+      answers[i] = answersTo(objects[o], plan.settings[s],
+                             querySeed(plan.seed, plan.first + s, o, t), recognisers, estimate);
     });
     tallies.emplace_back(recognisers.size(), Tally(objects.size()));
     for (std::size_t i = 0; i < answers.size(); ++i)

@@ -89,6 +89,7 @@ struct TrialPlan {
   std::uint64_t tests = 100; ///< per object and setting
   std::uint64_t seed = 1;    ///< queries are sampled with other seeds than models
   unsigned threads = 0;
+  std::size_t first = 0; ///< settings of an earlier run that came before these: seeds go on there
 };
 
 /** \brief Seed of a query. A setting's queries do not depend on the settings that follow it. */

@@ -45,10 +45,10 @@ TEST_F(Experiment, HelpNamesEveryExperimentAndOption)
   const AppRun r = run("experiment", {"-h"});
   EXPECT_TRUE(ended(r, 0, {}));
   for (const std::string word :
-       {"classification", "criteria", "noise",    "visibility",     "resolution", "elongation",
-        "distortion",     "peers",    "space",    "-meshes",        "rejection",  "-strangers",
-        "-out",           "-tests",   "-objects", "-normal_radius", "-intervals", "-peers",
-        "-saturations",   "-radii",   "-queries", "-seed",          "-threads"})
+       {"classification", "criteria",     "noise",  "visibility", "resolution",     "elongation",
+        "distortion",     "peers",        "space",  "-meshes",    "rejection",      "-strangers",
+        "-skip",          "-out",         "-tests", "-objects",   "-normal_radius", "-intervals",
+        "-peers",         "-saturations", "-radii", "-queries",   "-seed",          "-threads"})
     EXPECT_NE(r.out.find(word), std::string::npos) << word;
 }
 
@@ -69,6 +69,7 @@ TEST_F(Experiment, WrongUsageIsNamed)
       {{"visibility", "-out", out, "-meshes", out, "-normal_radius", "2"}, "-normal_radius"},
       {{"criteria", "-out", out, "-meshes", out, "-peers", "vfh"}, "-peers"},
       {{"peers", "-out", out, "-meshes", out, "-peers", "vfh,sift"}, "'sift'"},
+      {{"noise", "-out", out, "-meshes", out, "-skip", "2"}, "-skip"},
       {{"peers", "-out", out, "-meshes", out, "-strangers", "box"}, "-strangers"}};
   for (const auto& [arguments, named] : wrong)
     EXPECT_TRUE(ended(run("experiment", arguments), 1, {named, "-h"})) << named;
