@@ -19,11 +19,11 @@ constexpr const char* kProgram = "pcl_surflet_experiment";
 /** \brief The options of all experiments: an option may stand before the NAME it belongs to, so the
  * line is read before the experiment is known. */
 struct Options {
-  std::string meshes, out, objects, peers = peerNames();
+  std::string meshes, out, objects, peers = peerNames(), strangers = strangerNames();
   std::uint64_t tests = 0; ///< 0: the experiment's own number
-  std::uint64_t intervals = ChapterOptions().intervals, saturations = SpaceOptions().saturations,
-                radii = SpaceOptions().radii, queries = SpaceOptions().queries, seed = 1,
-                threads = 0;
+  std::uint64_t intervals = ChapterOptions().intervals, skip = 0,
+                saturations = SpaceOptions().saturations, radii = SpaceOptions().radii,
+                queries = SpaceOptions().queries, seed = 1, threads = 0;
   double normal_radius = ChapterOptions().normal_radius;
 };
 
@@ -44,10 +44,11 @@ ofChapter3(const char* name, const char* help, std::uint64_t tests,
   allowed.insert(allowed.end(), more.begin(), more.end());
   const auto start = [run](const Options& o, std::uint64_t number) {
     const auto labels = o.objects.empty() ? experimentLabels() : namesIn(o.objects);
-    return run({{o.meshes, o.out, labels, number, o.seed, o.threads},
+    return run({{o.meshes, o.out, labels, number, o.seed, o.threads, o.skip},
                 o.normal_radius,
                 o.intervals,
-                namesIn(o.peers)});
+                namesIn(o.peers),
+                namesIn(o.strangers)});
   };
   return {name, help, tests, {"-meshes", "-out"}, allowed, start};
 }
@@ -68,7 +69,9 @@ experiments()
       ofChapter3("distortion", "Fig. 3.8, 3.10-3.14: one to three axes 0.2 to 2.3 times as long",
                  20, runDistortion, {"-intervals"}),
       ofChapter3("peers", "our recognisers beside PCL's global descriptors, same queries", 50,
-                 runPeers, {"-peers"}),
+                 runPeers, {"-peers", "-skip"}),
+      ofChapter3("rejection", "unknown objects: how many strangers a model bank accepts", 5,
+                 runRejection, {"-strangers"}),
       {"space",
        "Exp. 4.6, Fig. 4.8: region search in a uniform cube; times and memory",
        0,
@@ -119,6 +122,11 @@ addChapter3Options(CommandLine& line, Options& o)
              "elongation, distortion: steps, default " + std::to_string(o.intervals), o.intervals,
              1, 1000);
   line.text("-peers", "LIST", "peers: descriptors that take part, default " + o.peers, o.peers);
+  line.count("-skip", "N",
+             "peers: leave out the first N conditions, to go on with a run that was ended", o.skip,
+             0, 11);
+  line.text("-strangers", "LIST", "rejection: meshes that are not in the database, by commas",
+            o.strangers);
 }
 
 CommandLine

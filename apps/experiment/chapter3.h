@@ -13,7 +13,11 @@ struct ChapterOptions {
   double normal_radius = 3;           ///< of normals estimated under noise, in spacings
   std::uint64_t intervals = 30;       ///< steps of a distortion
   std::vector<std::string> peer_list; ///< peers that take part
+  std::vector<std::string> strangers; ///< meshes that are not in the database
 };
+
+/** \brief Meshes of libcgal-demo that are not among experimentLabels(). */
+std::string strangerNames();
 
 /** \brief Factors of one axis, drawn from each of so many \p intervals of [0.4, 2], for each axis
  * [Wahl 2007, Sec. 3.6.8]. */
@@ -43,6 +47,9 @@ int runElongation(const ChapterOptions& options);
 int runDistortion(const ChapterOptions& options);
 /** \brief Ours beside PCL's global descriptors. */
 int runPeers(const ChapterOptions& options);
+/** \brief How many strangers pass for known where most known objects do: the bank's limit of the
+ * misfit, by calibration and by what accepts 95 % of the known; rejection.csv. */
+int runRejection(const ChapterOptions& options);
 ///@}
 
 } // namespace apps

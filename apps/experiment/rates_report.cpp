@@ -96,7 +96,7 @@ std::string
 ratesCsv(const Rates& rates)
 {
   std::string out = "series,x,condition,recogniser,tests,right,rate,low,high,failed,ms_per_query\n";
-  for (std::size_t s = 0; s < rates.settings.size(); ++s)
+  for (std::size_t s = 0; s < rates.tallies.size(); ++s)
     for (std::size_t r = 0; r < rates.recognisers.size(); ++r) {
       const Tally& t = rates.tallies[s][r];
       const auto [low, high] = confidenceInterval(t.right, t.tests);
@@ -112,7 +112,7 @@ confusionCsv(const Rates& rates)
 {
   std::ostringstream out;
   out << "series,x,condition,recogniser,object,answer,count\n";
-  for (std::size_t s = 0; s < rates.settings.size(); ++s)
+  for (std::size_t s = 0; s < rates.tallies.size(); ++s)
     for (std::size_t r = 0; r < rates.recognisers.size(); ++r)
       for (std::size_t o = 0; o < rates.objects.size(); ++o)
         for (std::size_t a = 0; a < rates.objects.size(); ++a)
@@ -146,15 +146,20 @@ reportRates(const RatesExperiment& experiment, const RatesOptions& options)
   const auto recognisers = withProgress<Recognisers>(objects.size(), [&](const auto& show) {
     return experiment.recognisers({objects, options.seed, threads, show});
   });
-  const TrialPlan plan{experiment.settings, options.tests, options.seed, threads};
-  Rates rates{objects, recognisers, experiment.settings, {}};
-  rates.tallies =
-      withProgress<std::vector<std::vector<Tally>>>(plan.settings.size(), [&](const auto& show) {
-        return runTrials(objects, recognisers, plan, show);
-      });
+  const std::size_t first = std::min<std::size_t>(options.skip, experiment.settings.size());
+  const std::vector<Setting> settings(
+      experiment.settings.begin() + static_cast<std::ptrdiff_t>(first), experiment.settings.end());
+  const TrialPlan plan{settings, options.tests, options.seed, threads, first};
+  Rates rates{objects, recognisers, settings, {}};
   const std::string base = options.out + "/" + experiment.name;
-  writeFile(base + ".csv", ratesCsv(rates));
-  writeFile(base + "_confusion.csv", confusionCsv(rates));
+  const auto keep = [&](const Tallies& done) {
+    rates.tallies = done;
+    writeFile(base + ".csv", ratesCsv(rates));
+    writeFile(base + "_confusion.csv", confusionCsv(rates));
+  };
+  withProgress<Tallies>(plan.settings.size(), [&](const auto& show) {
+    return runTrials(objects, recognisers, plan, show, keep);
+  });
   printResults(experiment, options, rates);
   std::printf("\nwrote %s.csv and %s_confusion.csv\n", base.c_str(), experiment.name.c_str());
   if (const auto no_picture = experiment.draw(rates, options.out); !no_picture.empty())

@@ -17,7 +17,7 @@ struct Rates {
   const std::vector<ExperimentObject>& objects;
   const Recognisers& recognisers;
   const std::vector<Setting>& settings;
-  std::vector<std::vector<Tally>> tallies; ///< [setting][recogniser]
+  Tallies tallies; ///< of the settings that are done
 };
 
 /** \brief An experiment as data: what is tried on what, and how it is drawn. */
@@ -36,10 +36,12 @@ struct RatesOptions {
   std::vector<std::string> labels; ///< the objects
   std::uint64_t tests = 100;       ///< per object and setting
   std::uint64_t seed = 1, threads = 0;
+  std::uint64_t skip = 0; ///< settings left out at the start: a run that was ended goes on
 };
 
 /** \brief Trains, tries, prints the rates with their 95 % intervals, writes NAME.csv and
- * NAME_confusion.csv and draws. \return the exit code
+ * NAME_confusion.csv (anew after every setting: what is done stays, should the run be ended) and
+ * draws. \return the exit code
  * \throws DataError, MeshFileError, std::invalid_argument */
 int reportRates(const RatesExperiment& experiment, const RatesOptions& options);
 

@@ -1,6 +1,7 @@
 #include "experiment/surflet_recognisers.h"
 
 #include "experiment/samples.h"
+#include "pcl_surflet/model_bank_trainer.h"
 #include "pcl_surflet/recognition/histogram_classifier.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 
@@ -148,6 +149,29 @@ trainOnSamples(const Training& training)
   return database;
 }
 
+HistogramModelTrainer
+meshTrainer(const Training& training, const Resolution& resolution)
+{
+  HistogramModelTrainer trainer;
+  trainer.setResolution(resolution);
+  trainer.setSeed(training.seed);
+  trainer.setNumberOfThreads(training.threads);
+  trainer.setMeshSampling(kSamplingSize, kTrainingSamples);
+  return trainer;
+}
+
+template <class Trainer>
+ModelDatabase
+trainedBy(const Trainer& trainer, const Training& training)
+{
+  ModelDatabase database;
+  for (std::size_t i = 0; i < training.objects.size(); ++i) {
+    training.progress(i, "training " + training.objects[i].label);
+    database.add(trainer.train(training.objects[i].label, training.objects[i].mesh));
+  }
+  return database;
+}
+
 } // namespace
 
 const std::vector<Criterion>&
@@ -162,17 +186,19 @@ tableCriteria()
 ModelDatabase
 trainObjects(const Training& training, const Resolution& resolution)
 {
-  HistogramModelTrainer trainer;
-  trainer.setResolution(resolution);
-  trainer.setSeed(training.seed);
-  trainer.setNumberOfThreads(training.threads);
-  trainer.setMeshSampling(kSamplingSize, kTrainingSamples);
-  ModelDatabase database;
-  for (std::size_t i = 0; i < training.objects.size(); ++i) {
-    training.progress(i, "training " + training.objects[i].label);
-    database.add(trainer.train(training.objects[i].label, training.objects[i].mesh));
-  }
-  return database;
+  return trainedBy(meshTrainer(training, resolution), training);
+}
+
+ModelDatabase
+trainBanks(const Training& training)
+{
+  return trainedBy(ModelBankTrainer(meshTrainer(training, {}), ModelBank::standard()), training);
+}
+
+std::unique_ptr<Recogniser>
+bankRecogniser(const Training& training)
+{
+  return likelihoodRecogniser("bank", trainBanks(training));
 }
 
 Recognisers
@@ -209,11 +235,13 @@ likelihoodRecogniser(const std::string& name, const ModelDatabase& database)
 Recognisers
 ours(const Training& training)
 {
-  Recognisers all = defaultCriteria(trainObjects(training));
+  Recognisers all;
+  all.push_back(bankRecogniser(training));
+  for (auto& clean : defaultCriteria(trainObjects(training)))
+    all.push_back(std::move(clean));
   all.push_back(std::make_unique<HistogramRecogniser>(
       "likelihood, peers' data", classifierOf(trainOnSamples(training), Criterion::Likelihood), 0,
       Normals::Estimated));
-  // A bank of models trained under conditions is one more recogniser here.
   return all;
 }
 

@@ -14,6 +14,12 @@ const std::vector<Criterion>& tableCriteria();
 /** \brief One model an object by training A: five even samplings of the mesh, all pairs. */
 ModelDatabase trainObjects(const Training& training, const Resolution& resolution = {});
 
+/** \brief One model an object with a member for every condition of ModelBank::standard(). */
+ModelDatabase trainBanks(const Training& training);
+
+/** \brief The likelihood by trainBanks(), named "bank". */
+std::unique_ptr<Recogniser> bankRecogniser(const Training& training);
+
 /** \brief The six criteria as the dissertation ran them: 0.005 % of a query's pairs drawn
  * [Wahl 2007, Sec. 3.6.2], empty bins as full as the rarest (Eq. 3.20 with tau = 1). And
  * Kullback-Leibler without the bins that the query left empty. */

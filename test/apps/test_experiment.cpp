@@ -2,6 +2,8 @@
 #include "app_runner.h"
 
 #include <algorithm>
+#include <chrono>
+#include <future>
 #include <map>
 
 using namespace pcl_surflet::test;
@@ -43,11 +45,10 @@ TEST_F(Experiment, HelpNamesEveryExperimentAndOption)
   const AppRun r = run("experiment", {"-h"});
   EXPECT_TRUE(ended(r, 0, {}));
   for (const std::string word :
-       {"classification", "criteria",     "noise",    "visibility",     "resolution",
-        "elongation",     "distortion",   "peers",    "space",          "-meshes",
-        "-out",           "-tests",       "-objects", "-normal_radius", "-intervals",
-        "-peers",         "-saturations", "-radii",   "-queries",       "-seed",
-        "-threads"})
+       {"classification", "criteria",     "noise",  "visibility", "resolution",     "elongation",
+        "distortion",     "peers",        "space",  "-meshes",    "rejection",      "-strangers",
+        "-skip",          "-out",         "-tests", "-objects",   "-normal_radius", "-intervals",
+        "-peers",         "-saturations", "-radii", "-queries",   "-seed",          "-threads"})
     EXPECT_NE(r.out.find(word), std::string::npos) << word;
 }
 
@@ -67,7 +68,9 @@ TEST_F(Experiment, WrongUsageIsNamed)
       {{"noise", "-out", out, "-meshes", out, "-intervals", "2"}, "-intervals"},
       {{"visibility", "-out", out, "-meshes", out, "-normal_radius", "2"}, "-normal_radius"},
       {{"criteria", "-out", out, "-meshes", out, "-peers", "vfh"}, "-peers"},
-      {{"peers", "-out", out, "-meshes", out, "-peers", "vfh,sift"}, "'sift'"}};
+      {{"peers", "-out", out, "-meshes", out, "-peers", "vfh,sift"}, "'sift'"},
+      {{"noise", "-out", out, "-meshes", out, "-skip", "2"}, "-skip"},
+      {{"peers", "-out", out, "-meshes", out, "-strangers", "box"}, "-strangers"}};
   for (const auto& [arguments, named] : wrong)
     EXPECT_TRUE(ended(run("experiment", arguments), 1, {named, "-h"})) << named;
   for (const std::string option : {"-saturations", "-radii", "-queries"})
@@ -161,18 +164,44 @@ TEST_F(Experiment, DistortionsGiveTheSameWhateverTheThreads)
 
 TEST_F(Experiment, PeersAnswerTheSameQueriesAndNameTheirMetric)
 {
-  const AppRun r =
-      run("experiment", twoObjects({"peers", "-tests", "1", "-peers", "our-cvfh,vfh,ppf"}));
-  ASSERT_TRUE(ended(r, 0, {}));
+  const auto arguments = twoObjects({"peers", "-tests", "1", "-peers", "our-cvfh,vfh,ppf"});
+  auto running = std::async(std::launch::async, [&] { return run("experiment", arguments); });
+  const std::string file = path("results/peers.csv");
+  std::size_t early = 0; // rows while it runs
+  while (running.wait_for(std::chrono::milliseconds(2)) != std::future_status::ready)
+    if (early == 0 && fs::exists(file))
+      early = rows("peers.csv").size();
+  ASSERT_TRUE(ended(running.get(), 0, {}));
   const auto rates = rows("peers.csv");
   std::map<std::string, std::map<std::string, std::vector<std::string>>> table;
   for (std::size_t i = 1; i < rates.size(); ++i)
     table[rates[i][3].substr(0, rates[i][3].find(','))][rates[i][2]] = rates[i];
-  for (const std::string name : {"our-cvfh", "vfh", "ppf", "likelihood"})
-    ASSERT_EQ(table[name].size(), 8u) << name << " under eight conditions";
+  for (const std::string name : {"our-cvfh", "vfh", "ppf", "likelihood", "bank"})
+    ASSERT_EQ(table[name].size(), 12u) << name << " under twelve conditions";
+  EXPECT_GT(early, 1u) << "rows are written as they come";
+  EXPECT_LT(early, rates.size());
+  for (const auto& [condition, row] : table["bank"])
+    EXPECT_EQ(row[5], "2") << condition;
   EXPECT_EQ(table["vfh"]["ideal"][5], "2");
   EXPECT_EQ(table["ppf"]["ideal"][5], "2");
   EXPECT_GT(std::stod(table["vfh"]["ideal"][10]), 0) << "time per query";
   const auto& name = table["vfh"]["ideal"][3];
   EXPECT_TRUE(name == "vfh, L1" || name == "vfh, L2" || name == "vfh, chi-squared") << name;
+}
+
+TEST_F(Experiment, RejectionCountsKnownAndStrangers)
+{
+  auto arguments = twoObjects({"rejection", "-tests", "1", "-strangers", "box"});
+  ASSERT_EQ(run("generate_shape", {"box", path("box.off"), "-points", "500"}).code, 0);
+  const AppRun r = run("experiment", arguments);
+  ASSERT_TRUE(ended(r, 0, {}));
+  EXPECT_NE(r.out.find("2 known, 1 strangers"), std::string::npos) << r.out;
+  const auto table = rows("rejection.csv");
+  ASSERT_EQ(table.size(), 27u) << "twelve conditions and all of them, by two limits";
+  const auto& all = table.back();
+  EXPECT_EQ(all, (std::vector<std::string>{"95 % of the known", all[1], "all", "24", "23", "12",
+                                           all[6]}));
+  EXPECT_EQ(table[1][2], "ideal");
+  EXPECT_EQ(table[1][4], "2") << "known objects are accepted";
+  EXPECT_EQ(table[1][6], "0") << "a box is neither sphere nor cup";
 }
