@@ -48,6 +48,14 @@ drawnBlock(const float* records, std::size_t m, std::uint64_t block, std::uint64
           static_cast<std::uint32_t>(std::min<std::uint64_t>(n, kDrawBlock))};
 }
 
+/** \brief From the kernels' counter indices to PairFeatures::angular_bin. */
+void
+toAngularBins(std::vector<std::uint32_t>& bins)
+{
+  for (auto& bin : bins)
+    bin = bin == kernels::kNoFeature ? kNoPairFeature : bin / kCounterCopies;
+}
+
 /** \brief Counters of one worker: 32 bits wide for speed, added to the 64-bit histogram before they
  * can overflow. */
 class WorkerCounts {
@@ -274,8 +282,65 @@ featuresOfPairs(const PairSource& source, const Resolution& resolution,
     kernels::active().featuresGiven({source.records(), first.data() + i, second.data() + i, block},
                                     map, out.angular_bin.data() + i, out.delta_squared.data() + i);
   }
-  for (auto& bin : out.angular_bin)
-    bin = bin == kernels::kNoFeature ? kNoPairFeature : bin / kCounterCopies;
+  toAngularBins(out.angular_bin);
+}
+
+void
+PairRows::clearRows()
+{
+  surflet.clear();
+  begin.clear();
+  count.clear();
+}
+
+void
+PairRows::addRow(std::uint32_t s, std::size_t first, std::size_t n)
+{
+  surflet.push_back(s);
+  begin.push_back(static_cast<std::uint32_t>(first));
+  count.push_back(static_cast<std::uint32_t>(n));
+}
+
+void
+PairRows::setPartners(const PairSource& source, const std::vector<std::uint32_t>& indices)
+{
+  number_ = indices.size();
+  const auto copy = [&](const std::vector<float>& from, std::vector<float>& to) {
+    to.resize(number_ + kernels::kRowPadding);
+    for (std::size_t i = 0; i < number_; ++i)
+      to[i] = from[indices[i]];
+  };
+  const SurfletSet& s = source.columns();
+  copy(s.x, partners_.x);
+  copy(s.y, partners_.y);
+  copy(s.z, partners_.z);
+  copy(s.nx, partners_.nx);
+  copy(s.ny, partners_.ny);
+  copy(s.nz, partners_.nz);
+}
+
+void
+featuresOfRows(const PairSource& source, const Resolution& resolution, const PairRows& rows,
+               PairFeatures& out)
+{
+  checkMapping(resolution, 1.0);
+  const std::size_t n = rows.surflet.size();
+  if (rows.begin.size() != n || rows.count.size() != n)
+    throw std::invalid_argument("pcl_surflet: rows of pairs need a surflet, a begin and a count");
+  std::size_t pairs = 0;
+  for (std::size_t i = 0; i < n; pairs += rows.count[i], ++i)
+    if (std::size_t{rows.begin[i]} + rows.count[i] > rows.numberOfPartners())
+      throw std::invalid_argument("pcl_surflet: a row of pairs ends behind the last partner");
+  const BinMap map(resolution, 1.0);
+  out.angular_bin.resize(pairs + kernels::kRowPadding);
+  out.delta_squared.resize(pairs + kernels::kRowPadding);
+  kernels::active().featuresOfRows({source.records(), rows.surflet.data(),
+                                    columnsOf(rows.partners()), rows.begin.data(),
+                                    rows.count.data(), n},
+                                   map, out.angular_bin.data(), out.delta_squared.data());
+  out.angular_bin.resize(pairs);
+  out.delta_squared.resize(pairs);
+  toAngularBins(out.angular_bin);
 }
 
 float

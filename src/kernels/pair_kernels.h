@@ -84,6 +84,19 @@ struct GivenPairs {
   std::uint32_t n; ///< at most kDrawBlock
 };
 
+/** \brief Rows of pairs: surflet[i] of the records with count[i] partners from begin[i] on, which
+ * lie in columns and so stream through memory. */
+struct RowPairs {
+  const float* records;
+  const std::uint32_t* surflet;
+  Columns partners; ///< readable up to kRowPadding behind the last one
+  const std::uint32_t* begin;
+  const std::uint32_t* count;
+  std::size_t rows;
+};
+
+constexpr std::size_t kRowPadding = 16;
+
 struct PairKernels {
   const char* name;
   /** Counts the pairs (a[i], b[i]), i < n, into kCounterCopies counters for each of bins + 1. */
@@ -98,6 +111,12 @@ struct PairKernels {
   /** The same of given pairs. */
   void (*featuresGiven)(const GivenPairs& pairs, const BinMap& map, std::uint32_t* index,
                         float* delta_squared);
+  /** The same of rows of pairs, one row behind the other, and up to kRowPadding entries of no
+   * meaning behind the last. */
+  void (*featuresOfRows)(const RowPairs& pairs, const BinMap& map, std::uint32_t* index,
+                         float* delta_squared);
+  /** out[i] += weight * in[i], i < n, rounded twice. */
+  void (*addWeighted)(const float* in, float weight, std::size_t n, float* out);
   /** Writes the indices of each drawn pair, for those who need the surflets themselves. */
   void (*drawIndices)(const DrawnBlock& block, std::uint32_t* first, std::uint32_t* second);
 };

@@ -328,30 +328,69 @@ countDrawn(const DrawnBlock& block, const BinMap& shared_map, std::uint32_t* cou
   });
 }
 
-template <class V>
+template <class V, class B>
 inline void
 storeFeatures(const Lanes<V>& s1, const Lanes<V>& s2, const BinMap& map, std::uint32_t* index,
               float* delta_squared)
 {
-  const auto f = features<V, Borders<0, 0>>(s1, s2, map);
+  const auto f = features<V, B>(s1, s2, map);
   V::storeIndex(index, V::select(f.valid, f.index, V::set(-1.f)));
   V::store(delta_squared, f.delta_squared);
 }
 
 template <class V, class Block>
 void
-featuresOfBlock(const Block& block, const BinMap& map, std::uint32_t* index, float* delta_squared)
+featuresOfBlock(const Block& block, const BinMap& shared_map, std::uint32_t* index,
+                float* delta_squared)
 {
+  const BinMap map = shared_map;
   const BlockIndices indices(block);
-  const auto done = forPairLanes<V>(block, indices, 0,
-                                    [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
-                                      storeFeatures<V>(s1, s2, map, index + i, delta_squared + i);
-                                    });
-  forPairLanes<ScalarLanes>(
-      block, indices, done,
-      [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2, std::uint32_t i) {
-        storeFeatures<ScalarLanes>(s1, s2, map, index + i, delta_squared + i);
-      });
+  withBorders(map, [&](auto borders) {
+    using B = decltype(borders);
+    const auto done = forPairLanes<V>(
+        block, indices, 0, [&](const Lanes<V>& s1, const Lanes<V>& s2, std::uint32_t i) {
+          storeFeatures<V, B>(s1, s2, map, index + i, delta_squared + i);
+        });
+    forPairLanes<ScalarLanes>(
+        block, indices, done,
+        [&](const Lanes<ScalarLanes>& s1, const Lanes<ScalarLanes>& s2, std::uint32_t i) {
+          storeFeatures<ScalarLanes, Borders<0, 0>>(s1, s2, map, index + i, delta_squared + i);
+        });
+  });
+}
+
+template <class V>
+void
+featuresOfRows(const RowPairs& pairs, const BinMap& shared_map, std::uint32_t* index,
+               float* delta_squared)
+{
+  const BinMap map = shared_map;
+  withBorders(map, [&](auto borders) {
+    using B = decltype(borders);
+    for (std::size_t row = 0; row < pairs.rows; ++row) {
+      const float* r = pairs.records + std::size_t{8} * pairs.surflet[row];
+      const Lanes<V> s = {V::set(r[0]), V::set(r[1]), V::set(r[2]),
+                          V::set(r[3]), V::set(r[4]), V::set(r[5])};
+      const std::uint32_t n = pairs.count[row];
+      // The last lanes may hold what is behind the row: the next row writes over it.
+      for (std::uint32_t i = 0; i < n; i += V::kWidth)
+        storeFeatures<V, B>(s, loadColumns<V>(pairs.partners, pairs.begin[row] + i), map, index + i,
+                            delta_squared + i);
+      index += n;
+      delta_squared += n;
+    }
+  });
+}
+
+template <class V>
+void
+addWeighted(const float* in, float weight, std::size_t n, float* out)
+{
+  std::size_t i = 0;
+  for (const auto w = V::set(weight); i + V::kWidth <= n; i += V::kWidth)
+    V::store(out + i, V::load(out + i) + w * V::load(in + i));
+  for (; i < n; ++i)
+    out[i] += weight * in[i];
 }
 
 } // namespace
@@ -367,6 +406,8 @@ featuresOfBlock(const Block& block, const BinMap& map, std::uint32_t* index, flo
                                 countDrawn<V>,                                                     \
                                 featuresOfBlock<V, DrawnBlock>,                                    \
                                 featuresOfBlock<V, GivenPairs>,                                    \
+                                featuresOfRows<V>,                                                 \
+                                addWeighted<V>,                                                    \
                                 drawIndices};                                                      \
   }                                                                                                \
   }

@@ -13,6 +13,9 @@ constexpr std::uint64_t kLongStream = 0x6c6f6e67ULL;
 constexpr std::uint64_t kLongDraws = 200000;
 constexpr float kFewestLongPairs = 2000; ///< a bin of 1 % then has 20
 constexpr std::size_t kBlock = 256;      ///< cells judged at a time by one thread
+constexpr std::size_t kPartners = 4;     ///< partners in reach for each that is asked
+constexpr std::uint32_t kTypicalBalls = 65;
+constexpr double kSharedReach = 0.1; ///< share of the radius within which cells share partners
 
 /** \brief Is a pair more likely on a background model than on every object? */
 bool
@@ -26,25 +29,63 @@ isBackground(const SceneModels& models, std::uint32_t angular_bin, float delta_s
   return background > object;
 }
 
-/** \brief \p n neighbours of \p cell, spread evenly over those in reach, which may include itself;
- * fewer than two cells in reach give none. */
-void
-spreadNeighbours(const LinearOctree& octree, const SurfletSet& s, std::uint32_t cell, double radius,
-                 unsigned n, std::vector<PlaceRange>& ranges, std::vector<std::uint32_t>& out)
+bool
+areNear(const Position& a, const Position& b, double distance)
 {
-  octree.regionRanges({s.x[cell], s.y[cell], s.z[cell]}, radius, ranges);
-  std::uint64_t total = 0;
-  for (const auto& r : ranges)
-    total += r.end - r.begin;
-  std::uint64_t before = 0;
-  const auto* range = ranges.data();
-  for (unsigned i = 0; total > 1 && i < n; ++i) {
-    const std::uint64_t at = (2 * i + 1) * total / (2 * n);
-    for (; at - before >= range->end - range->begin; ++range)
-      before += range->end - range->begin;
-    out.push_back(static_cast<std::uint32_t>(
-        octree.indexAt(range->begin + static_cast<std::uint32_t>(at - before))));
+  const double x = a[0] - b[0], y = a[1] - b[1], z = a[2] - b[2];
+  return x * x + y * y + z * z <= distance * distance;
+}
+
+/** \brief The cells at the places from \p begin to \p end of the octree, each with \p asked
+ * partners of \p thin: one choice serves neighbours, which have nearly the same in reach. */
+PairRows
+rowsOf(const SceneData& scene, const LinearOctree& octree, std::uint32_t begin, std::uint32_t end,
+       const LinearOctree& thin, double radius, unsigned asked)
+{
+  PairRows rows;
+  std::vector<PlaceRange> ranges;
+  Indices partners;
+  std::size_t first = 0;
+  Position middle{};
+  for (std::uint32_t place = begin; place < end; ++place) {
+    const Position q = octree.positionAt(place);
+    if (place == begin || !areNear(q, middle, kSharedReach * radius)) {
+      middle = q;
+      first = partners.size();
+      thin.regionRanges(q, radius, ranges);
+      if (cellsIn(ranges) > 1)
+        spreadOver(thin, ranges, asked, partners);
+    }
+    rows.addRow(static_cast<std::uint32_t>(octree.indexAt(place)), first, partners.size() - first);
   }
+  rows.setPartners(scene.source, partners);
+  return rows;
+}
+
+/** \brief Every so manieth cell of \p octree, so that a typical ball holds kPartners times as many
+ * as are asked: partners are spread over it anyway, and finding all of them took nine tenths of the
+ * vote. The octree keeps neighbours together, so what is left is even. */
+LinearOctree
+thinned(const SceneData& scene, const LinearOctree& octree, double radius, unsigned asked)
+{
+  const SurfletSet& s = scene.cells;
+  std::vector<std::size_t> sizes;
+  std::vector<PlaceRange> ranges;
+  for (std::uint32_t k = 0; k < kTypicalBalls && octree.size() > 0; ++k) {
+    const auto at = static_cast<std::uint32_t>(octree.size() * k / kTypicalBalls);
+    const auto i = static_cast<std::size_t>(octree.indexAt(at));
+    octree.regionRanges({s.x[i], s.y[i], s.z[i]}, radius, ranges);
+    sizes.push_back(cellsIn(ranges));
+  }
+  std::sort(sizes.begin(), sizes.end());
+  const std::size_t typical = sizes.empty() ? 0 : sizes[sizes.size() / 2];
+  const std::size_t step = std::max<std::size_t>(1, typical / (kPartners * std::size_t{asked}));
+  std::vector<PointIndex> some;
+  for (std::size_t k = step / 2; k < octree.size(); k += step)
+    some.push_back(octree.indexData()[k]);
+  LinearOctree thin;
+  thin.build({s.x.data(), s.y.data(), s.z.data(), 1, s.size()}, &some);
+  return thin;
 }
 
 double
@@ -100,24 +141,24 @@ vote(const SceneData& scene, const LinearOctree& octree, double radius, double s
 {
   const std::size_t n = scene.cells.size();
   const FeatureTable table(scene.models.resolution, radius * scene.source.scale(), is_background);
+  const LinearOctree thin = thinned(scene, octree, radius, p.vote_pairs);
   std::vector<char> background(n, 0);
-  parallelFor((n + kBlock - 1) / kBlock, p.steps.threads, [&](std::size_t block, unsigned) {
-    const std::size_t begin = block * kBlock, end = std::min(n, begin + kBlock);
-    std::vector<PlaceRange> ranges;
-    std::vector<std::uint32_t> first, second;
-    for (std::size_t i = begin; i < end; ++i) {
-      spreadNeighbours(octree, scene.cells, static_cast<std::uint32_t>(i), radius, p.vote_pairs,
-                       ranges, second);
-      first.resize(second.size(), static_cast<std::uint32_t>(i));
-    }
-    PairFeatures features;
-    featuresOfPairs(scene.source, scene.models.resolution, first, second, features);
-    std::vector<unsigned> votes(end - begin, 0);
-    for (std::size_t k = 0; k < first.size(); ++k)
-      votes[first[k] - begin] += table(features.angular_bin[k], features.delta_squared[k]);
-    for (std::size_t i = begin; i < end; ++i)
-      background[i] = votes[i - begin] > 0 && votes[i - begin] >= share * p.vote_pairs;
-  });
+  parallelFor((octree.size() + kBlock - 1) / kBlock, p.steps.threads,
+              [&](std::size_t block, unsigned) {
+                const auto begin = static_cast<std::uint32_t>(block * kBlock);
+                const auto end = static_cast<std::uint32_t>(
+                    std::min<std::size_t>(octree.size(), begin + kBlock));
+                PairRows rows = rowsOf(scene, octree, begin, end, thin, radius, p.vote_pairs);
+                PairFeatures features;
+                featuresOfRows(scene.source, scene.models.resolution, rows, features);
+                std::size_t pair = 0;
+                for (std::size_t row = 0; row < rows.surflet.size(); ++row) {
+                  unsigned votes = 0;
+                  for (const std::size_t last = pair + rows.count[row]; pair < last; ++pair)
+                    votes += table(features.angular_bin[pair], features.delta_squared[pair]);
+                  background[rows.surflet[row]] = votes > 0 && votes >= share * p.vote_pairs;
+                }
+              });
   return background;
 }
 

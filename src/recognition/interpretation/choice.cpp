@@ -39,13 +39,13 @@ private:
 };
 
 void
-judge(Explaining& work, Explanation& e, SupportMemory& memory)
+judge(Explaining& work, Explanation& e)
 {
   const auto& p = work.parameters;
   e.fit = e.cells.size() < p.steps.min_cluster
               ? 0
               : fitOf(work.scene, work.scene.models.all[e.model], e.cells, p.features,
-                      p.steps.seed ^ kFitStream, memory);
+                      p.steps.seed ^ kFitStream);
 }
 
 void
@@ -73,8 +73,8 @@ Division::divide(std::vector<Explanation>& set, bool all)
       best_[s.cell] = 0;
       owner_[s.cell] = kNobody;
     }
-  parallelFor(changed.size(), work_.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
-    judge(work_, set[changed[i]], work_.memory[worker]);
+  parallelFor(changed.size(), work_.parameters.steps.threads, [&](std::size_t i, unsigned) {
+    judge(work_, set[changed[i]]);
   });
 }
 
@@ -280,7 +280,7 @@ lookClosely(Explaining& work, const std::vector<Segment>& rough)
   parallelFor(rough.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
     all[i] = lookClosely(work, rough[i], work.memory[worker]);
     if (!all[i].cells.empty())
-      judge(work, all[i], work.memory[worker]);
+      judge(work, all[i]);
   });
   return withoutRepetitions(std::move(all), work.scene.cells.size());
 }

@@ -1,5 +1,6 @@
 #include "support.h"
 
+#include "kernels/pair_kernels.h"
 #include "pcl_surflet/core/counter_random.h"
 
 #include <algorithm>
@@ -14,6 +15,7 @@ constexpr unsigned kIterations = 10;
 constexpr float kFirstSlope = 1;
 constexpr unsigned kSlopeDoublings = 3;
 constexpr float kSettled = 0.005f; ///< share of the weight that may still change
+constexpr std::size_t kPairsInCache = 4096; ///< whose indices and features stay in the cache
 
 /** \brief Columns and distances of what is in m.features, see Sample. */
 void
@@ -71,9 +73,7 @@ sumSupport(const std::vector<float>& ratio, const std::vector<float>& weight,
     if (w == 0)
       continue;
     total += w;
-    const float* row = ratio.data() + j * n;
-    for (std::size_t i = 0; i < n; ++i) // rows, not sums: so the compiler may use vectors
-      support[i] += w * row[i];
+    kernels::active().addWeighted(ratio.data() + j * n, w, n, support.data());
   }
   if (total > 0)
     for (float& s : support)
@@ -147,17 +147,30 @@ roughFit(const SceneModel& model, const std::vector<std::uint32_t>& index,
   return intersection(model, counts);
 }
 
+/** \brief Lays cells of \p core out in windows of \p probes, each spread evenly over it.
+ * \return number of windows */
+std::size_t
+layWindows(const Indices& core, unsigned probes, Indices& out)
+{
+  const std::size_t windows = std::max<std::size_t>(1, core.size() / probes);
+  out.resize(windows * probes);
+  for (std::size_t w = 0; w < windows; ++w)
+    for (std::size_t k = 0; k < probes; ++k)
+      out[w * probes + k] = core[(w + k * core.size() / probes) % core.size()];
+  return windows;
+}
+
 std::uint32_t
 angularBins(const SceneData& scene)
 {
   return static_cast<std::uint32_t>(scene.models.resolution.angularBins());
 }
 
-/** \brief Indices of the pairs (m.first, m.second) in the model's support. */
+/** \brief Indices of the pairs in m.rows in the model's support. */
 void
-indicesOfPairs(const SceneData& scene, const SceneModel& model, SupportMemory& m)
+indicesOfRows(const SceneData& scene, const SceneModel& model, SupportMemory& m)
 {
-  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
+  featuresOfRows(scene.source, scene.models.resolution, m.rows, m.features);
   columnsOf(m.features, angularBins(scene), m.column, m.delta);
   indicesOf(model, m.column, m.delta, m.index);
 }
@@ -191,16 +204,46 @@ summary(const SceneData& scene, const Sample& sample, const std::vector<float>& 
   return s;
 }
 
+Position
+positionOf(const Centre& c)
+{
+  return {static_cast<float>(c[0]), static_cast<float>(c[1]), static_cast<float>(c[2])};
+}
+
 } // namespace
+
+std::size_t
+cellsIn(const std::vector<PlaceRange>& ranges)
+{
+  std::size_t sum = 0;
+  for (const auto& r : ranges)
+    sum += r.end - r.begin;
+  return sum;
+}
+
+void
+spreadOver(const LinearOctree& octree, const std::vector<PlaceRange>& ranges, std::size_t n,
+           Indices& out)
+{
+  const std::uint64_t total = cellsIn(ranges);
+  std::uint64_t before = 0;
+  const PlaceRange* range = ranges.data();
+  for (std::uint64_t i = 0; i < n; ++i) {
+    const std::uint64_t at = (2 * i + 1) * total / (2 * n);
+    for (; at - before >= range->end - range->begin; ++range)
+      before += range->end - range->begin;
+    const auto place = range->begin + static_cast<std::uint32_t>(at - before);
+    out.push_back(static_cast<std::uint32_t>(octree.indexAt(place)));
+  }
+}
 
 Indices
 cellsWithin(const LinearOctree& octree, const Centre& centre, double radius,
             std::vector<PlaceRange>& ranges)
 {
-  octree.regionRanges(
-      {static_cast<float>(centre[0]), static_cast<float>(centre[1]), static_cast<float>(centre[2])},
-      radius, ranges);
+  octree.regionRanges(positionOf(centre), radius, ranges);
   Indices cells;
+  cells.reserve(cellsIn(ranges));
   for (const auto& r : ranges)
     for (std::uint32_t at = r.begin; at < r.end; ++at)
       cells.push_back(static_cast<std::uint32_t>(octree.indexAt(at)));
@@ -212,21 +255,16 @@ drawSample(const SceneData& scene, const LinearOctree& octree, const Centre& cen
            std::size_t most, SupportMemory& m)
 {
   Sample& sample = m.sample;
-  sample.cells = cellsWithin(octree, centre, radius, m.ranges);
-  sample.population = sample.cells.size();
-  // The octree keeps neighbours together, so every so manieth cell is an even choice.
+  octree.regionRanges(positionOf(centre), radius, m.ranges);
+  sample.population = cellsIn(m.ranges);
   const std::size_t n = std::min(most, sample.population);
-  for (std::size_t i = 0; i < n; ++i)
-    sample.cells[i] = sample.cells[(2 * i + 1) * sample.population / (2 * n)];
-  sample.cells.resize(n);
-  m.first.clear();
-  m.second.clear();
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t j = 0; j < i; ++j) {
-      m.first.push_back(sample.cells[i]);
-      m.second.push_back(sample.cells[j]);
-    }
-  featuresOfPairs(scene.source, scene.models.resolution, m.first, m.second, m.features);
+  sample.cells.clear();
+  spreadOver(octree, m.ranges, n, sample.cells);
+  m.rows.setPartners(scene.source, sample.cells);
+  m.rows.clearRows();
+  for (std::size_t i = 1; i < n; ++i)
+    m.rows.addRow(sample.cells[i], 0, i);
+  featuresOfRows(scene.source, scene.models.resolution, m.rows, m.features);
   columnsOf(m.features, angularBins(scene), sample.column, sample.delta);
 }
 
@@ -260,44 +298,40 @@ void
 supportOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
           const Indices& core, unsigned probes, SupportMemory& m, std::vector<CellSupport>& out)
 {
-  m.first.clear();
-  m.second.clear();
-  const std::size_t n = core.size();
-  for (const auto c : cells) {
-    const std::size_t start = static_cast<std::size_t>(mix64(c) % n);
-    for (unsigned k = 0; k < probes; ++k) {
-      m.first.push_back(c);
-      m.second.push_back(core[(start + k * n / probes) % n]);
-    }
-  }
-  indicesOfPairs(scene, model, m);
   out.clear();
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    float sum = 0;
-    for (std::size_t k = i * probes; k < (i + 1) * probes; ++k)
-      sum += model.support[m.index[k]];
-    if (sum > 0)
-      out.push_back({cells[i], sum / static_cast<float>(probes)});
+  if (core.empty())
+    return;
+  const std::size_t windows = layWindows(core, probes, m.partners);
+  m.rows.setPartners(scene.source, m.partners);
+  const std::size_t block = std::max<std::size_t>(1, kPairsInCache / probes);
+  for (std::size_t begin = 0; begin < cells.size(); begin += block) {
+    const std::size_t end = std::min(cells.size(), begin + block);
+    m.rows.clearRows();
+    for (std::size_t i = begin; i < end; ++i)
+      m.rows.addRow(cells[i], mix64(cells[i]) % windows * probes, probes);
+    indicesOfRows(scene, model, m);
+    for (std::size_t i = begin, pair = 0; i < end; ++i) {
+      float sum = 0;
+      for (const std::size_t last = pair + probes; pair < last; ++pair)
+        sum += model.support[m.index[pair]];
+      if (sum > 0)
+        out.push_back({cells[i], sum / static_cast<float>(probes)});
+    }
   }
 }
 
 double
 fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells, std::uint64_t features,
-      std::uint64_t stream, SupportMemory& m)
+      std::uint64_t seed)
 {
-  const auto n = static_cast<std::uint32_t>(cells.size());
-  CounterRandom random(stream);
-  m.first.clear();
-  m.second.clear();
-  for (std::uint64_t i = 0; i < features; ++i) {
-    m.first.push_back(cells[static_cast<std::size_t>(i % n)]);
-    m.second.push_back(cells[random.below(n)]);
-  }
-  indicesOfPairs(scene, model, m);
-  m.counts.assign(model.support.size(), 0);
-  for (const auto i : m.index)
-    ++m.counts[i];
-  return intersection(model, m.counts);
+  const PairSource source(scene.cells.subset(cells));
+  const auto counted = countStreamedPairs(source, scene.models.resolution, model.model->delta_max,
+                                          features, seed, 1);
+  const auto total = static_cast<double>(counted.features);
+  double sum = 0;
+  for (std::size_t b = 0; b < model.h.size() && total > 0; ++b)
+    sum += std::min<double>(model.h[b], static_cast<double>(counted.counts[b]) / total);
+  return sum;
 }
 
 } // namespace interpretation

@@ -28,11 +28,13 @@ struct Sample {
 struct SupportMemory {
   Sample sample;
   std::vector<PlaceRange> ranges;
-  std::vector<std::uint32_t> first, second, index;
+  PairRows rows;
+  std::vector<std::uint32_t> index;
   std::vector<std::uint32_t> column;
   std::vector<float> delta, ratio, weight, support;
   std::vector<std::uint32_t> counts;
   PairFeatures features;
+  Indices partners;
 };
 
 /** \brief The part of a sample that supports a model. */
@@ -57,6 +59,13 @@ struct Segment {
 /** \brief All cells of \p octree within \p radius of \p centre. */
 Indices cellsWithin(const LinearOctree& octree, const Centre& centre, double radius,
                     std::vector<PlaceRange>& ranges);
+
+std::size_t cellsIn(const std::vector<PlaceRange>& ranges);
+
+/** \brief Appends \p n cells, spread evenly over the ranges, which must not be empty. The octree
+ * keeps neighbours together, so that is an even choice of the surface. */
+void spreadOver(const LinearOctree& octree, const std::vector<PlaceRange>& ranges, std::size_t n,
+                Indices& out);
 
 /** \brief Draws at most \p most cells within the ball and computes the features of their pairs. */
 void drawSample(const SceneData& scene, const LinearOctree& octree, const Centre& centre,
@@ -86,7 +95,7 @@ void supportOf(const SceneData& scene, const SceneModel& model, const Indices& c
 /** \brief Intersection of the histogram of \p cells, from \p features random pairs, with that of
  * the model [Wahl 2007, Eq. 3.7]. */
 double fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
-             std::uint64_t features, std::uint64_t stream, SupportMemory& memory);
+             std::uint64_t features, std::uint64_t seed);
 
 } // namespace interpretation
 } // namespace pcl_surflet
