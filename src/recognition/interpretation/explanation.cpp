@@ -16,7 +16,8 @@ namespace {
 constexpr double kLeastRoughFit = 0.45;
 constexpr double kBackgroundKnown = 0.1; ///< share of the work, about
 constexpr unsigned kSettlings = 2;
-constexpr unsigned kCompletions = 2;
+/** \brief One cell of so many is asked at first: their core is enough to ask all. */
+constexpr std::size_t kFirstCompletion = 4;
 constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
 
 void
@@ -140,8 +141,13 @@ lookClosely(Explaining& work, const Segment& rough, SupportMemory& memory)
   e.model = rough.model;
   e.cells = s.core;
   const Indices ball = cellsWithin(work.open, s.centre, radius, memory.ranges);
-  for (unsigned k = 0; k < kCompletions && e.cells.size() > 2; ++k) {
-    supportOf(work.scene, model, ball, e.cells, p.probes, memory, e.supported);
+  Indices some;
+  for (std::size_t i = 0; i < ball.size(); i += kFirstCompletion)
+    some.push_back(ball[i]);
+  for (const Indices* asked : {static_cast<const Indices*>(&some), &ball}) {
+    if (e.cells.size() < 3)
+      break;
+    supportOf(work.scene, model, *asked, e.cells, p.probes, memory, e.supported);
     e.cells.clear();
     for (const auto& c : e.supported)
       e.cells.push_back(c.cell);
