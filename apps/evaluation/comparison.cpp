@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <map>
 
 namespace pcl_surflet {
 namespace apps {
@@ -67,27 +68,29 @@ Comparison::Comparison(std::string row, const std::vector<std::string>& labels,
 void
 Comparison::enter(const std::string& name, std::shared_ptr<const Recogniser> method)
 {
-  contestants_.push_back({name, std::move(method), Score(labels_), {}, {}, {}});
+  contestants_.push_back({name, std::move(method), Score(labels_), {}, {}, {}, {}, {}});
 }
 
 void
-Comparison::measure(Contestant& c, const Scene& scene, const CellScene& cells, std::uint64_t seed,
-                    double normals)
+Comparison::measure(Contestant& c, const Scene& scene, const Prepared& seen, std::uint64_t seed)
 {
   SceneInterpretation found;
-  c.seconds.push_back(secondsOf([&] { found = c.method->find(cells.cells, seed); }));
-  if (normals > 0)
-    c.normals_ratio.push_back(c.seconds.back() / normals);
-  c.score.add(cells, found.detections);
+  c.cells.push_back(static_cast<double>(seen.cells.cells.size()));
+  c.seconds.push_back(secondsOf([&] { found = c.method->find(seen.cells.cells, seed); }));
+  if (seen.normals_seconds > 0) {
+    c.normals_ratio.push_back(c.seconds.back() / seen.normals_seconds);
+    c.voxel_ratio.push_back(seen.voxel_ratio);
+  }
+  c.score.add(seen.cells, found.detections);
   if (options_.verbose) {
-    printDetections(c.name, cells, found.detections);
+    printDetections(c.name, seen.cells, found.detections);
     printDiagnostics(found.diagnostics);
   }
   if (!options_.memory || c.seconds.size() > kMemoryScenes)
     return;
   found = {};
   const double bytes = bytesOf([&] {
-    const auto reduced = reduceToCells(scene.surflets, options_.leaf);
+    const auto reduced = reduceToCells(scene.surflets, reduction(c.method->splitBelow()));
     c.method->find(reduced.cells, seed);
   });
   if (bytes >= 0)
@@ -95,21 +98,40 @@ Comparison::measure(Contestant& c, const Scene& scene, const CellScene& cells, s
                              (kBytesPerSurflet * static_cast<double>(scene.surflets.size())));
 }
 
+CellReductionOptions
+Comparison::reduction(double split_below) const
+{
+  CellReductionOptions o;
+  o.leaf = options_.leaf;
+  o.split_below = split_below;
+  return o;
+}
+
+Comparison::Prepared
+Comparison::prepared(const Scene& scene, double split_below) const
+{
+  CellReduction reduced;
+  const double reducing =
+      secondsOf([&] { reduced = reduceToCells(scene.surflets, reduction(split_below)); });
+  Prepared p;
+  p.cells = withTruth(reduced, scene);
+  if (options_.peers) {
+    p.normals_seconds = normalEstimationSeconds(p.cells.cells, options_.threads);
+    p.voxel_ratio = reducing / voxelGridSeconds(scene.surflets, options_.leaf);
+  }
+  return p;
+}
+
 void
 Comparison::run(const Scene& scene, std::uint64_t seed)
 {
-  CellReduction reduction;
-  const double reducing =
-      secondsOf([&] { reduction = reduceToCells(scene.surflets, options_.leaf); });
-  const CellScene cells = withTruth(reduction, scene);
-  cells_.push_back(static_cast<double>(cells.cells.size()));
-  double normals = 0;
-  if (options_.peers) {
-    normals = normalEstimationSeconds(cells.cells, options_.threads);
-    voxel_ratio_.push_back(reducing / voxelGridSeconds(scene.surflets, options_.leaf));
+  std::map<double, Prepared> seen; // by the split that methods ask for
+  for (auto& c : contestants_) {
+    const double split_below = c.method->splitBelow();
+    if (seen.count(split_below) == 0)
+      seen[split_below] = prepared(scene, split_below);
+    measure(c, scene, seen[split_below], seed);
   }
-  for (auto& c : contestants_)
-    measure(c, scene, cells, seed, normals);
 }
 
 std::string
@@ -118,10 +140,10 @@ Comparison::table() const
   std::string text;
   for (const auto& c : contestants_) {
     text += row_ + ", " + c.name + "\n" + c.score.table() + "seconds a scene " +
-            number(medianOf(c.seconds)) + " (median, " + number(medianOf(cells_)) + " cells)";
+            number(medianOf(c.seconds)) + " (median, " + number(medianOf(c.cells)) + " cells)";
     if (!c.normals_ratio.empty())
       text += ", " + number(medianOf(c.normals_ratio)) + " of NormalEstimationOMP; reduction " +
-              number(medianOf(voxel_ratio_)) + " of VoxelGrid";
+              number(medianOf(c.voxel_ratio)) + " of VoxelGrid";
     if (!c.memory_ratio.empty())
       text += "; memory at most " + number(largest(c.memory_ratio)) + " of the scene's surflets";
     text += "\n\n";
@@ -146,9 +168,9 @@ Comparison::csv(std::size_t models, const std::string& treatment, std::uint64_t 
     const std::string memory = c.memory_ratio.empty() ? "" : number(largest(c.memory_ratio));
     text += c.score.csv(csvField(row_) + "," + c.name + "," + treatment + "," +
                         std::to_string(seed) + "," + std::to_string(c.score.scenes()) + "," +
-                        std::to_string(models) + "," + number(medianOf(cells_)) + "," +
+                        std::to_string(models) + "," + number(medianOf(c.cells)) + "," +
                         number(medianOf(c.seconds)) + "," + medianField(c.normals_ratio) + "," +
-                        medianField(voxel_ratio_) + "," + memory + ",");
+                        medianField(c.voxel_ratio) + "," + memory + ",");
   }
   return text;
 }

@@ -5,6 +5,8 @@
 #include "evaluation/recognisers.h"
 #include "evaluation/scoring.h"
 
+#include "pcl_surflet/core/cell_reduction.h"
+
 #include <functional>
 #include <memory>
 #include <string>
@@ -27,9 +29,10 @@ struct Contestant {
   std::string name;
   std::shared_ptr<const Recogniser> method;
   Score score;
-  std::vector<double> seconds;       ///< a scene
-  std::vector<double> normals_ratio; ///< of this to pcl::NormalEstimationOMP on the same cells
-  std::vector<double> memory_ratio;  ///< growth to the surflets of the scene
+  std::vector<double> cells, seconds; ///< a scene
+  std::vector<double> voxel_ratio;    ///< of the reduction to pcl::VoxelGrid
+  std::vector<double> normals_ratio;  ///< of this to pcl::NormalEstimationOMP on the same cells
+  std::vector<double> memory_ratio;   ///< growth to the surflets of the scene
 };
 
 /** \brief A row of a table: one kind of scene, several methods. */
@@ -50,14 +53,21 @@ public:
   std::string csv(std::size_t models, const std::string& treatment, std::uint64_t seed) const;
 
 private:
-  void measure(Contestant& contestant, const Scene& scene, const CellScene& cells,
-               std::uint64_t seed, double normals);
+  /** \brief A scene as some methods see it. */
+  struct Prepared {
+    CellScene cells;
+    double normals_seconds = 0, voxel_ratio = 0; ///< 0: not measured
+  };
+
+  Prepared prepared(const Scene& scene, double split_below) const;
+  CellReductionOptions reduction(double split_below) const;
+  void measure(Contestant& contestant, const Scene& scene, const Prepared& seen,
+               std::uint64_t seed);
 
   std::string row_;
   std::vector<std::string> labels_;
   ComparisonOptions options_;
   std::vector<Contestant> contestants_;
-  std::vector<double> cells_, voxel_ratio_;
 };
 
 } // namespace apps

@@ -77,6 +77,12 @@ public:
     return findAwayFrom(empty_, options_.leaf, cells, interpret);
   }
 
+  double
+  splitBelow() const override
+  {
+    return by_explanation_ ? kTwoSided : 0;
+  }
+
 private:
   RecogniserOptions options_;
   bool by_explanation_;

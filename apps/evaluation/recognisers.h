@@ -31,6 +31,13 @@ public:
   /** \brief What is in the scene. Detections name objects in the order of training; their cells
    * are indices of \p cells. All treatment of the background is part of it. */
   virtual SceneInterpretation find(const SurfletSet& cells, std::uint64_t seed) const = 0;
+
+  /** \brief How the method wants scenes to be reduced, see CellReductionOptions. */
+  virtual double
+  splitBelow() const
+  {
+    return 0;
+  }
 };
 
 /** \brief Names that recogniser() understands. */

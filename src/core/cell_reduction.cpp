@@ -1,5 +1,6 @@
 #include "pcl_surflet/core/cell_reduction.h"
 
+#include "cell_sums.h"
 #include "pcl_surflet/core/morton_key.h"
 #include "radix_sort.h"
 
@@ -14,12 +15,7 @@ namespace pcl_surflet {
 
 namespace {
 
-/** \brief Position and normal sums of one cell. */
-struct CellSums {
-  double position[3] = {0, 0, 0};
-  double normal[3] = {0, 0, 0};
-  std::uint32_t count = 0;
-};
+using detail::CellSums;
 
 /** \brief The cells the set spans: the lowest cell and the bits a cell number needs per axis. */
 struct CellGrid {
@@ -125,14 +121,7 @@ sumCells(const SurfletSet& set, const std::vector<std::uint32_t>& cell_of, std::
   for (std::size_t i = 0; i < set.size(); ++i) {
     if (cell_of[i] == CellReduction::no_cell)
       continue;
-    CellSums& sum = sums[cell_of[i]];
-    sum.position[0] += set.x[i];
-    sum.position[1] += set.y[i];
-    sum.position[2] += set.z[i];
-    sum.normal[0] += set.nx[i];
-    sum.normal[1] += set.ny[i];
-    sum.normal[2] += set.nz[i];
-    ++sum.count;
+    sums[cell_of[i]].add(set, i);
   }
   return sums;
 }
@@ -146,7 +135,7 @@ appendMeans(const std::vector<CellSums>& sums, double min_mean_normal, CellReduc
   result.counts.reserve(sums.size());
   for (std::size_t c = 0; c < sums.size(); ++c) {
     const auto& [p, n, count] = sums[c];
-    const double length = std::sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const double length = sums[c].normalLength();
     if (!(length > 0) || length < min_mean_normal * count) {
       new_number[c] = CellReduction::no_cell;
       ++result.cancelled_cells;
@@ -170,6 +159,9 @@ checkOptions(const CellReductionOptions& options)
   if (!(options.min_mean_normal >= 0 && options.min_mean_normal <= 1))
     throw std::invalid_argument("reduceToCells: min_mean_normal must be in [0, 1], it is " +
                                 std::to_string(options.min_mean_normal));
+  if (!(options.split_below >= 0 && options.split_below <= 1))
+    throw std::invalid_argument("reduceToCells: split_below must be in [0, 1], it is " +
+                                std::to_string(options.split_below));
 }
 
 } // namespace
@@ -185,8 +177,10 @@ reduceToCells(const SurfletSet& set, const CellReductionOptions& options)
       grid.bits <= 10   ? assignCells<std::uint32_t>(set, grid, result.cell_of)
       : grid.bits <= 21 ? assignCells<std::uint64_t>(set, grid, result.cell_of)
                         : assignWideCells(set, grid, result.cell_of);
-  const auto sums = sumCells(set, result.cell_of, cells);
-  std::vector<std::uint32_t> new_number(cells);
+  auto sums = sumCells(set, result.cell_of, cells);
+  if (options.split_below > 0)
+    detail::splitSides(set, options.split_below, sums, result.cell_of);
+  std::vector<std::uint32_t> new_number(sums.size());
   appendMeans(sums, options.min_mean_normal, result, new_number);
   for (auto& cell : result.cell_of) {
     result.rejected += cell == CellReduction::no_cell;
@@ -201,6 +195,15 @@ reduceToCells(const SurfletSet& set, double leaf)
 {
   CellReductionOptions options;
   options.leaf = leaf;
+  return reduceToCells(set, options);
+}
+
+CellReduction
+reduceToTwoSidedCells(const SurfletSet& set, double leaf)
+{
+  CellReductionOptions options;
+  options.leaf = leaf;
+  options.split_below = kTwoSided;
   return reduceToCells(set, options);
 }
 

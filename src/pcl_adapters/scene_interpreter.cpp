@@ -231,7 +231,9 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
 {
   const double leaf = leafOf(request.leaf, database);
   const SizeRange sizes = objectSizes(database);
-  CellReduction reduction = reduceToCells(points.surflets, leaf);
+  CellReduction reduction = request.method == Method::Dissertation
+                                ? reduceToCells(points.surflets, leaf)
+                                : reduceToTwoSidedCells(points.surflets, leaf);
   diagnostics.leaf = leaf;
   diagnostics.cells = reduction.cells.size();
   diagnostics.extent = diagonal(reduction.cells);

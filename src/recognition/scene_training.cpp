@@ -80,7 +80,7 @@ orientationsOf(const SurfletSet& surflets, double leaf, std::uint64_t seed)
 {
   std::vector<Orientation> all(kOrientations);
   for (std::size_t k = 0; k < kOrientations; ++k) {
-    all[k].cells = reduceToCells(randomlyRotated(surflets, seed + k), leaf).cells;
+    all[k].cells = reduceToTwoSidedCells(randomlyRotated(surflets, seed + k), leaf).cells;
     for (std::uint32_t i = 0; i < all[k].cells.size(); ++i)
       all[k].support.push_back(i);
   }

@@ -61,7 +61,9 @@ TEST(Evaluate, EveryMethodSeesTheSameScenes)
     EXPECT_EQ(line["row"], "easy, two");
     EXPECT_EQ(line["treatment"], "exclude");
     EXPECT_EQ(line["present"], line["object"] == "all" ? "2" : "1");
-    EXPECT_EQ(line["scene_cells"], lines[0].at("scene_cells"));
+    EXPECT_EQ(std::stod(line["scene_cells"]) > std::stod(lines[0].at("scene_cells")),
+              line["method"] == "explanation")
+        << "it has both sides of the bottle's wall";
     EXPECT_EQ(line["normals_ratio"], "") << "was not asked for";
     if (line["method"] != "dissertation") {
       EXPECT_EQ(line["found"], line["present"]) << line["method"] << " " << line["object"];

@@ -267,6 +267,45 @@ TEST(PairCounting, FeaturesOfGivenPairsAreThoseOfDrawnOnes)
   EXPECT_THROW(featuresOfPairs(source, {}, {1, 2}, {1}, self), std::invalid_argument);
 }
 
+TEST(PairCounting, RowsHaveTheFeaturesOfTheirPairs)
+{
+  const auto set = mixedCloud(200, 12);
+  const PairSource source(set);
+  std::vector<std::uint32_t> indices, first, second;
+  for (std::uint32_t i = 0; i < 60; ++i)
+    indices.push_back(3 * i + 1);
+  PairRows rows;
+  rows.setPartners(source, indices);
+  const std::size_t lengths[] = {1, 0, 16, 17, 60, 5, 31}; // with and without remainders
+  for (std::uint32_t r = 0; r < 7; ++r) {
+    const std::size_t begin = 60 - lengths[r];
+    rows.addRow(5 * r, begin, lengths[r]);
+    for (std::size_t k = begin; k < 60; ++k) {
+      first.push_back(5 * r);
+      second.push_back(indices[k]);
+    }
+  }
+  for (const auto kernels : kSets)
+    for (const Resolution resolution : {Resolution{7, 7, 7, 7}, Resolution{4, 3, 9, 2}}) {
+      if (!selectInstructionSet(kernels))
+        continue;
+      PairFeatures expected, found;
+      featuresOfPairs(source, resolution, first, second, expected);
+      featuresOfRows(source, resolution, rows, found);
+      EXPECT_EQ(found.angular_bin, expected.angular_bin) << activeInstructionSet();
+      EXPECT_EQ(found.delta_squared, expected.delta_squared) << activeInstructionSet();
+    }
+  selectInstructionSet(InstructionSet::Automatic);
+  PairFeatures out;
+  rows.addRow(0, 59, 2);
+  EXPECT_THROW(featuresOfRows(source, {}, rows, out), std::invalid_argument) << "too long";
+  rows.clearRows();
+  featuresOfRows(source, {}, rows, out);
+  EXPECT_TRUE(out.angular_bin.empty());
+  rows.surflet.push_back(0);
+  EXPECT_THROW(featuresOfRows(source, {}, rows, out), std::invalid_argument) << "no length";
+}
+
 TEST(PairCounting, TinyAndDegenerateSets)
 {
   SurfletSet set;

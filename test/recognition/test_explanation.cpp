@@ -1,5 +1,6 @@
 // Interpretation by explanation: its parts on hand-made cases, and as a whole.
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/instruction_set.h"
 #include "pcl_surflet/core/scene_generator.h"
 #include "pcl_surflet/recognition/scene_training.h"
 #include "recognition/interpretation/explanation.h"
@@ -58,7 +59,7 @@ options(Background background = Background::None)
 SurfletSet
 reduced(const SurfletSet& set)
 {
-  return reduceToCells(set, kLeaf).cells;
+  return reduceToTwoSidedCells(set, kLeaf).cells;
 }
 
 SurfletSet
@@ -485,6 +486,25 @@ TEST(InterpretationByExplanation, NothingIsFoundInNothingOrAtAnotherMagnitude)
   for (const float factor : {0.001f, 1000.f})
     EXPECT_TRUE(interpretByExplanation(scaled(cells, factor), models(), quick()).detections.empty())
         << factor;
+}
+
+TEST(InterpretationByExplanation, InstructionsDoNotMatter)
+{
+  const auto scene = generateScene({things()[0], things()[1]}, {}, options());
+  const auto cells = reduced(scene.surflets);
+  const auto usual = interpretByExplanation(cells, models(), quick());
+  ASSERT_FALSE(usual.detections.empty());
+  for (const auto set : {InstructionSet::Scalar, InstructionSet::Baseline, InstructionSet::Avx2}) {
+    if (!selectInstructionSet(set))
+      continue;
+    const auto found = interpretByExplanation(cells, models(), quick());
+    ASSERT_EQ(found.detections.size(), usual.detections.size());
+    for (std::size_t i = 0; i < usual.detections.size(); ++i) {
+      EXPECT_EQ(found.detections[i].cells, usual.detections[i].cells);
+      EXPECT_EQ(found.detections[i].fit, usual.detections[i].fit);
+    }
+  }
+  selectInstructionSet(InstructionSet::Automatic);
 }
 
 TEST(InterpretationByExplanation, ThreadsDoNotMatter)

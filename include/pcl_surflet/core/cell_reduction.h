@@ -34,14 +34,24 @@ struct CellReductionOptions {
    * corner 0.58, a thin wall seen from both sides 0. Below 0.1 the direction is an accident of how
    * many points fell on either side. */
   double min_mean_normal = 0.1;
+  /** \brief Cells whose mean normal is shorter than this become two, one for the surflets on each
+   * side of a wall, in [0, 1]; 0: none.
+   *
+   * A wall thinner than a cell, seen from both sides, has no mean surflet: its normals cancel. What
+   * is left of it depends on where the grid happens to cut it. Not in the dissertation. */
+  double split_below = 0;
 };
+
+/** \brief CellReductionOptions::split_below that parts walls and leaves edges and corners alone. */
+constexpr double kTwoSided = 0.4;
 
 /** \brief Reduces \p set to the mean surflet of every occupied cell [Wahl 2007, Sec. 4.3.1].
  *
  * Cells are cubes with corners at multiples of the leaf size, so the result does not depend on
  * what else the set contains. The mean surflet has the mean position and the mean normal scaled to
- * unit length; sums run in double precision in the order of the set. Surflets with a non-finite
- * coordinate or normal belong to no cell; a zero normal adds its position only.
+ * unit length; CellReductionOptions::split_below makes two of a cell with opposite sides. Sums run
+ * in double precision in the order of the set. Surflets with a non-finite coordinate or normal
+ * belong to no cell; a zero normal adds its position only.
  *
  * Linear time: 20 to 30 ns a surflet. The result depends on nothing but the input.
  * \throws std::invalid_argument if the leaf is not positive and finite or so small that the set
@@ -51,5 +61,9 @@ PCL_SURFLET_API CellReduction reduceToCells(const SurfletSet& set,
 
 /** \brief reduceToCells() with cells of edge \p leaf and the default options. */
 PCL_SURFLET_API CellReduction reduceToCells(const SurfletSet& set, double leaf);
+
+/** \brief The same but for thin walls, which become two cells (kTwoSided): what
+ * interpretByExplanation() and trainForScenes() want. */
+PCL_SURFLET_API CellReduction reduceToTwoSidedCells(const SurfletSet& set, double leaf);
 
 } // namespace pcl_surflet

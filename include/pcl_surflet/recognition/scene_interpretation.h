@@ -185,8 +185,9 @@ struct ExplanationParameters {
  * object. BackgroundTreatment::Ignore does the same with what the scene's own long pairs tell,
  * those that no object can have.
  *
- * Models should be trained by trainForScenes() with seven intervals in every dimension; with five
- * too few bins are empty. Results and limits are in doc/interpretation/results.md.
+ * Cells should come from reduceToTwoSidedCells() and models from trainForScenes(), with seven
+ * intervals in every dimension; with five too few bins are empty. Results and limits are in
+ * doc/interpretation/results.md.
  *
  * Exceptions and \p cells as in interpretByDissertation(). */
 PCL_SURFLET_API SceneInterpretation

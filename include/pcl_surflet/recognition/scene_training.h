@@ -9,10 +9,11 @@ namespace pcl_surflet {
 /** \brief Trains a model of what an object looks like in a scene that is reduced to cells.
  *
  * A scene's mean surflets are not those of the surface: edges are cut, and walls thinner than a
- * cell cancel. So the object is reduced too, in four random orientations. And as interpretation
- * finds an object by the cells that support its model (interpretByExplanation()), the histogram is
- * that of the cells that support each other; a wine glass loses its stem. HistogramModel::
- * surface_area becomes the area of these cells, by which the share found of an object is judged.
+ * cell suffer. So the object is reduced too (reduceToTwoSidedCells()), in four random orientations.
+ * And as interpretation finds an object by the cells that support its model
+ * (interpretByExplanation()), the histogram is that of the cells that support each other; a wine
+ * glass loses its stem. HistogramModel:: surface_area becomes the area of these cells, by which the
+ * share found of an object is judged.
  *
  * \param trainer resolution and role of the model; seven intervals in every dimension are best
  * \param surflets of the complete surface, several to a cell

@@ -73,9 +73,8 @@ Division::divide(std::vector<Explanation>& set, bool all)
       best_[s.cell] = 0;
       owner_[s.cell] = kNobody;
     }
-  parallelFor(changed.size(), work_.parameters.steps.threads, [&](std::size_t i, unsigned) {
-    judge(work_, set[changed[i]]);
-  });
+  parallelFor(changed.size(), work_.parameters.steps.threads,
+              [&](std::size_t i, unsigned) { judge(work_, set[changed[i]]); });
 }
 
 /** \brief The choice of explanations: cells explained, weighed by how much better than junk. */
@@ -196,6 +195,9 @@ Choice::taken(std::size_t but) const
   return taken;
 }
 
+/** \brief Other models to be tried in place of \p e: those that the scan found nearby, and all
+ * where \p e is and where the middle of the open cells about it is, as what the scan saw there may
+ * have been hidden by neighbours that have been explained since. */
 std::vector<Segment>
 Choice::rivalsOf(const Explanation& e, const std::vector<Segment>& all) const
 {
@@ -205,6 +207,20 @@ Choice::rivalsOf(const Explanation& e, const std::vector<Segment>& all) const
     if (s.model != e.model && std::hypot(s.centre[0] - e.centre[0], s.centre[1] - e.centre[1],
                                          s.centre[2] - e.centre[2]) < reach)
       rivals.push_back(s);
+  std::vector<PlaceRange> ranges;
+  for (std::size_t k = 0; k < work_.scene.models.objects; ++k) {
+    if (k == e.model)
+      continue;
+    Segment s;
+    s.model = k;
+    s.centre = e.centre;
+    rivals.push_back(s);
+    const Indices about = cellsWithin(work_.open, e.centre, work_.radiusOf(k), ranges);
+    if (about.empty())
+      continue;
+    s.centre = centroidOf(work_.scene.cells, about);
+    rivals.push_back(std::move(s));
+  }
   return rivals;
 }
 
