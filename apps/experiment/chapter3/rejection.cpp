@@ -14,7 +14,7 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-/** \brief Misfits of the winners, sorted; infinite where nobody answers. */
+/** \brief Strangeness of the answers, sorted; infinite where nobody answers. */
 using Misfits = std::vector<double>;
 
 /** \brief Misfits of all \p objects under a setting.
@@ -31,7 +31,7 @@ misfitsOf(const std::vector<ExperimentObject>& objects, const HistogramClassifie
     const auto answer =
         classifier.classify(makeQuery(objects[o], condition.value(), seed, false).sampled);
     if (!answer.ranking.empty())
-      all[i] = answer.ranking.front().relative_misfit;
+      all[i] = answer.strangeness;
   });
   std::sort(all.begin(), all.end());
   return all;
