@@ -34,11 +34,13 @@ plotCommand(const std::string& base, const Panel& panel, std::size_t first_block
   std::vector<std::string> bands, lines;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const std::string block = formatted("'%s.dat' index %zu using ", base.c_str(), first_block + c);
+    constexpr std::size_t kColours = 8; // gnuplot's; curves that share one differ by dashes
     const std::string colour = " lc " + std::to_string(c + 1);
+    const std::string dashes = c < kColours ? "" : " dt 2";
     if (!small)
       bands.push_back(block + "1:3:4 with filledcurves fs transparent solid 0.15 noborder" +
                       colour + " notitle");
-    lines.push_back(block + "1:2 with lines lw 1.5" + colour +
+    lines.push_back(block + "1:2 with lines lw 1.5" + colour + dashes +
                     (small ? " notitle" : " title '" + panel.curves[c].title + "'"));
   }
   std::string out; // all lines above all bands

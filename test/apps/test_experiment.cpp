@@ -222,8 +222,9 @@ TEST_F(Experiment, RetrievalFindsTheClass)
     const double value = std::stod(table[i][2]);
     EXPECT_LE(std::stod(table[i][3]), value);
     EXPECT_GE(std::stod(table[i][4]), value);
-    if (table[i][0] == "0.1")
+    if (table[i][0] == "0.1") {
       EXPECT_EQ(value, 1) << table[i][1] << ": a sphere is not a cup";
+    }
   }
   EXPECT_NE(fs::exists(path("results/retrieval.svg")),
             r.err.find("no picture") != std::string::npos);
