@@ -38,12 +38,13 @@ struct Experiment {
 /** \brief An experiment of chapter 3. */
 Experiment
 ofChapter3(const char* name, const char* help, std::uint64_t tests,
-           int (*run)(const ChapterOptions&), const std::vector<std::string>& more = {})
+           int (*run)(const ChapterOptions&), const std::vector<std::string>& more = {},
+           const std::vector<std::string>& labels_by_default = experimentLabels())
 {
   std::vector<std::string> allowed = {"-objects", "-tests", "-seed", "-threads"};
   allowed.insert(allowed.end(), more.begin(), more.end());
-  const auto start = [run](const Options& o, std::uint64_t number) {
-    const auto labels = o.objects.empty() ? experimentLabels() : namesIn(o.objects);
+  const auto start = [=](const Options& o, std::uint64_t number) {
+    const auto labels = o.objects.empty() ? labels_by_default : namesIn(o.objects);
     return run({{o.meshes, o.out, labels, number, o.seed, o.threads, o.skip},
                 o.normal_radius,
                 o.intervals,
@@ -72,6 +73,8 @@ experiments()
                  runPeers, {"-peers", "-skip"}),
       ofChapter3("rejection", "unknown objects: how many strangers a model bank accepts", 5,
                  runRejection, {"-strangers"}),
+      ofChapter3("retrieval", "collections with classes: tiers, precision over recall", 20,
+                 runRetrieval, {}, allLabels()),
       {"space",
        "Exp. 4.6, Fig. 4.8: region search in a uniform cube; times and memory",
        0,
@@ -113,8 +116,9 @@ addChapter3Options(CommandLine& line, Options& o)
             o.meshes);
   line.text("-objects", "LIST", "chapter 3: names of other meshes there, by commas", o.objects);
   line.count("-tests", "N",
-             "chapter 3: tests per object and condition, default: " + testsByDefault(), o.tests, 1,
-             1000000);
+             "chapter 3: tests per object and condition (retrieval: models per class), default: " +
+                 testsByDefault(),
+             o.tests, 1, 1000000);
   line.real("-normal_radius", "R",
             "noise: estimate normals within R spacings, default " + number(o.normal_radius),
             o.normal_radius, 1, 20);

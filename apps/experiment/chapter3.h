@@ -19,6 +19,10 @@ struct ChapterOptions {
 /** \brief Meshes of libcgal-demo that are not among experimentLabels(). */
 std::string strangerNames();
 
+/** \brief All meshes of libcgal-demo that the experiments know: experimentLabels() and
+ * strangerNames(). */
+std::vector<std::string> allLabels();
+
 /** \brief Factors of one axis, drawn from each of so many \p intervals of [0.4, 2], for each axis
  * [Wahl 2007, Sec. 3.6.8]. */
 std::vector<Setting> elongationSettings(std::uint64_t intervals);
@@ -50,6 +54,10 @@ int runPeers(const ChapterOptions& options);
 /** \brief How many strangers pass for known where most known objects do: the bank's limit of the
  * misfit, by calibration and by what accepts 95 % of the known; rejection.csv. */
 int runRejection(const ChapterOptions& options);
+/** \brief Collections of classes of more and more variety: nearest neighbour, first and second
+ * tier, precision over recall. The number of tests is that of models a class. retrieval.csv,
+ * retrieval.svg. \throws UsageError for fewer than two classes or models */
+int runRetrieval(const ChapterOptions& options);
 ///@}
 
 } // namespace apps

@@ -34,11 +34,13 @@ plotCommand(const std::string& base, const Panel& panel, std::size_t first_block
   std::vector<std::string> bands, lines;
   for (std::size_t c = 0; c < panel.curves.size(); ++c) {
     const std::string block = formatted("'%s.dat' index %zu using ", base.c_str(), first_block + c);
+    constexpr std::size_t kColours = 8; // gnuplot's; curves that share one differ by dashes
     const std::string colour = " lc " + std::to_string(c + 1);
+    const std::string dashes = c < kColours ? "" : " dt 2";
     if (!small)
       bands.push_back(block + "1:3:4 with filledcurves fs transparent solid 0.15 noborder" +
                       colour + " notitle");
-    lines.push_back(block + "1:2 with lines lw 1.5" + colour +
+    lines.push_back(block + "1:2 with lines lw 1.5" + colour + dashes +
                     (small ? " notitle" : " title '" + panel.curves[c].title + "'"));
   }
   std::string out; // all lines above all bands
@@ -53,6 +55,8 @@ panelCommands(const std::string& base, const Panel& panel, std::size_t first_blo
 {
   std::string out = "unset label\nset title \"" + panel.title + "\" noenhanced\nset xlabel \"" +
                     panel.x_label + "\"\n";
+  if (!small)
+    out += "set ylabel '" + panel.y_label + "'\n";
   for (const auto& s : panel.statements)
     out +=
         formatted("set label \"%s\" at %g,%g front point pt 6 ps 0.8 offset 0.6,-0.6 font ',9'\n",
@@ -87,13 +91,13 @@ drawPanels(const std::string& directory, const std::string& base, const std::vec
   const std::size_t rows = rowsFor(panels.size(), columns);
   const std::size_t width = small ? 200 : (columns == 1 ? 720 : 400), height = small ? 150 : 380;
   const std::string terminal = small ? "pngcairo" : "svg"; // the frames alone take 300 kB of SVG
-  std::string script = formatted(
-      "set terminal %s size %zu,%zu background rgb 'white' font 'sans,%d'\n"
-      "set output '%s.%s'\nset multiplot layout %zu,%zu\nset yrange [0:105]\n"
-      "set grid lc rgb '#dddddd'\nset key outside bottom center horizontal\n"
-      "set ytics 20\n%s",
-      terminal.c_str(), columns * width, rows * height, small ? 8 : 11, base.c_str(),
-      small ? "png" : "svg", rows, columns, small ? "" : "set ylabel 'recognition in %'\n");
+  std::string script =
+      formatted("set terminal %s size %zu,%zu background rgb 'white' font 'sans,%d'\n"
+                "set output '%s.%s'\nset multiplot layout %zu,%zu\nset yrange [0:105]\n"
+                "set grid lc rgb '#dddddd'\nset key outside bottom center horizontal\n"
+                "set ytics 20\n",
+                terminal.c_str(), columns * width, rows * height, small ? 8 : 11, base.c_str(),
+                small ? "png" : "svg", rows, columns);
   std::size_t block = 0;
   for (const auto& panel : panels) {
     script += panelCommands(base, panel, block, small);

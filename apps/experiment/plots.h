@@ -29,6 +29,7 @@ struct Panel {
   std::string title, x_label;
   std::vector<Curve> curves;
   std::vector<Statement> statements;
+  std::string y_label = "recognition in %";
 };
 
 /** \brief Rates of answers: [object][object answered]. */

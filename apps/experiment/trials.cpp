@@ -1,13 +1,9 @@
 #include "experiment/trials.h"
 
-#include "pcl_surflet/core/conditions.h"
-#include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/parallel.h"
-#include "pcl_surflet/sensed_surface.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <time.h>
 
@@ -38,88 +34,6 @@ answersTo(const ExperimentObject& object, const Setting& setting, std::uint64_t 
     answers[r] = recognisers[r]->classify(query.with(recognisers[r]->normals()));
   }
   return answers;
-}
-
-/** \brief A mesh as a sensor far up the z axis sees it: the foremost height in every pixel. */
-class DepthPicture {
-public:
-  DepthPicture(const SurfletSet& vertices, const std::vector<TriangleMesh::Triangle>& triangles)
-      : heights_(kPixels * kPixels, -std::numeric_limits<double>::infinity())
-  {
-    const auto [left, right] = std::minmax_element(vertices.x.begin(), vertices.x.end());
-    const auto [low, high] = std::minmax_element(vertices.y.begin(), vertices.y.end());
-    left_ = *left;
-    low_ = *low;
-    pixel_ = std::max<double>(*right - *left, *high - *low) / (kPixels - 2);
-    for (const auto& t : triangles)
-      draw({inPixels(vertices[t[0]]), inPixels(vertices[t[1]]), inPixels(vertices[t[2]])});
-  }
-
-  bool
-  shows(const Surflet& s) const
-  {
-    constexpr double kGrazing = 0.05, kSteepest = 0.15;
-    if (s.nz < kGrazing)
-      return false;
-    const auto [x, y, height] = inPixels(s);
-    const auto column = std::clamp(std::lround(x), 0L, kPixels - 1L);
-    const auto row = std::clamp(std::lround(y), 0L, kPixels - 1L);
-    // The pixel's middle may lie higher up the slope than the surflet.
-    return heights_[static_cast<std::size_t>(row * kPixels + column)] - height <=
-           2 * pixel_ / std::max<double>(s.nz, kSteepest);
-  }
-
-private:
-  static constexpr long kPixels = 512;
-  using Corner = std::array<double, 3>; ///< column, row, height
-
-  Corner
-  inPixels(const Surflet& s) const
-  {
-    return {(s.x - left_) / pixel_, (s.y - low_) / pixel_, s.z};
-  }
-
-  void
-  draw(const std::array<Corner, 3>& t)
-  {
-    const auto twiceArea = [](const Corner& a, const Corner& b, const Corner& c) {
-      return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-    };
-    const double area = twiceArea(t[0], t[1], t[2]);
-    if (std::abs(area) < 1e-12)
-      return; // seen from the edge
-    const auto [left, right] = std::minmax({t[0][0], t[1][0], t[2][0]});
-    const auto [low, high] = std::minmax({t[0][1], t[1][1], t[2][1]});
-    for (long y = std::lround(std::ceil(low)); y <= std::lround(std::floor(high)); ++y)
-      for (long x = std::lround(std::ceil(left)); x <= std::lround(std::floor(right)); ++x) {
-        const Corner at = {static_cast<double>(x), static_cast<double>(y), 0};
-        const double u = twiceArea(at, t[1], t[2]) / area, v = twiceArea(t[0], at, t[2]) / area,
-                     w = 1 - u - v;
-        if (std::min({u, v, w}) < -1e-9)
-          continue;
-        double& height = heights_[static_cast<std::size_t>(y * kPixels + x)];
-        height = std::max(height, u * t[0][2] + v * t[1][2] + w * t[2][2]);
-      }
-  }
-
-  double left_ = 0, low_ = 0, pixel_ = 1;
-  std::vector<double> heights_;
-};
-
-/** \brief What a sensor on the z axis sees of \p sample, a sample of \p mesh before it was turned
- * with \p turn_seed. Normals point to the sensor: it knows no others, and its noise lies there. */
-SurfletSet
-seenFromAbove(const SurfletSet& sample, const TriangleMesh& mesh, std::uint64_t turn_seed)
-{
-  SurfletSet vertices;
-  for (const auto& v : mesh.vertices)
-    vertices.push_back({v[0], v[1], v[2], 0, 0, 1});
-  const DepthPicture picture(randomlyRotated(vertices, turn_seed), mesh.triangles);
-  SurfletSet seen;
-  for (std::size_t i = 0; i < sample.size(); ++i)
-    if (const Surflet s = sample[i]; picture.shows(s))
-      seen.push_back({s.x, s.y, s.z, 0, 0, 1});
-  return seen;
 }
 
 } // namespace
@@ -180,41 +94,6 @@ confidenceInterval(std::uint64_t right, std::uint64_t tests)
   const double centre = (p + z * z / (2 * n)) / (1 + z * z / n);
   const double half = z / (1 + z * z / n) * std::sqrt(p * (1 - p) / n + z * z / (4 * n * n));
   return {std::max(0.0, centre - half), std::min(1.0, centre + half)};
-}
-
-Query
-makeQuery(const ExperimentObject& object, const Condition& condition, std::uint64_t seed,
-          bool estimate)
-{
-  const bool whole = condition.stretch == std::array<double, 3>{1, 1, 1};
-  const TriangleMesh other =
-      whole ? TriangleMesh() : stretched(object.mesh, object.axes, condition.stretch);
-  const TriangleMesh& mesh = whole ? object.mesh : other;
-  const auto target = static_cast<std::size_t>(std::lround(
-      static_cast<double>(kSamplingSize) * condition.resolution * condition.resolution));
-  const bool sensed = condition.noise > 0 || condition.view;
-  Query query;
-  query.sampled = randomlyRotated(sampleIsoMesh(mesh, target, seed), mix64(seed));
-  if (condition.view)
-    query.sampled = seenFromAbove(query.sampled, mesh, mix64(seed));
-  if (condition.noise > 0)
-    query.sampled = displacedAlongNormals(query.sampled, condition.noise, mix64(seed + 1));
-  if (condition.visible < 1)
-    query.sampled = cutByRandomPlane(query.sampled, condition.visible, mix64(seed + 2));
-  if (!estimate && !sensed)
-    return query;
-  query.estimated =
-      withEstimatedNormals(query.sampled, condition.normal_radius * object.spacing, 1).surflets;
-  if (sensed)
-    query.sampled = query.estimated;
-  return query;
-}
-
-std::uint64_t
-querySeed(std::uint64_t seed, std::size_t setting, std::size_t object, std::size_t test)
-{
-  // Seeds of their own: no query is a sampling that a model was trained with.
-  return mix64(mix64(mix64(seed) + setting) + object) + test;
 }
 
 Tallies

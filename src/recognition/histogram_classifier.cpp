@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace pcl_surflet {
 namespace {
@@ -44,6 +45,13 @@ posteriors(const std::vector<double>& mean_log, std::uint64_t features, std::siz
   for (double& v : p)
     v /= sum;
   return p;
+}
+
+/** \brief Classification::strangeness. */
+double
+strangeness(double relative_misfit, double misfit, double runner_up)
+{
+  return misfit < runner_up ? relative_misfit * std::sqrt(misfit / runner_up) : relative_misfit;
 }
 
 } // namespace
@@ -158,14 +166,45 @@ HistogramClassifier::defaultFeatures(const Resolution& resolution)
                                  2 * static_cast<std::uint64_t>(resolution.bins()));
 }
 
+double
+HistogramClassifier::nearestRival(std::size_t member) const
+{
+  const PenalizedHistogram& own = members_[member];
+  double nearest = std::numeric_limits<double>::infinity();
+  std::vector<float> mean_log;
+  for (std::size_t m = 0; m < models_.size(); ++m) {
+    if (m == own.model)
+      continue;
+    const LogTable& table = logs_[m];
+    mean_log.assign(table.members, 0);
+    for (std::size_t b = 0; b < own.h.size(); ++b) {
+      const float* row = table.rows.data() + b * table.members;
+      const auto share = static_cast<float>(own.h[b]);
+      for (std::size_t k = 0; k < table.members; ++k)
+        mean_log[k] += share * row[k];
+    }
+    const float best = *std::max_element(mean_log.begin(), mean_log.end());
+    nearest = std::min(nearest, std::max(0.0, own.expected_log - static_cast<double>(best)));
+  }
+  return nearest;
+}
+
 std::optional<double>
 HistogramClassifier::calibratedMisfitLimit() const
 {
+  constexpr std::size_t kMostMembers = 256;
+  const std::size_t step = (infos_.size() + kMostMembers - 1) / kMostMembers;
   double sum = 0;
   std::size_t measured = 0;
-  for (const auto& info : infos_) {
-    sum += info.misfit_limit;
-    measured += info.misfit_limit > 0;
+  for (std::size_t i = 0; i < infos_.size(); i += step) {
+    const auto& info = infos_[i];
+    if (info.misfit_limit <= 0)
+      continue;
+    // What a rival misses is what the member misses and what lies between the two.
+    const double misfit = info.misfit * info.misfit_limit;
+    const double rival = models_.size() > 1 ? misfit + nearestRival(i) : misfit;
+    sum += strangeness(info.misfit_limit, misfit, rival);
+    ++measured;
   }
   if (measured == 0)
     return std::nullopt;
@@ -185,9 +224,10 @@ HistogramClassifier::better(double a, double b) const
 }
 
 bool
-HistogramClassifier::accepted(const ModelMatch& match) const
+HistogramClassifier::accepted(const Classification& answer) const
 {
-  if (misfit_limit_ && match.relative_misfit > *misfit_limit_)
+  const ModelMatch& match = answer.ranking.front();
+  if (misfit_limit_ && answer.strangeness > *misfit_limit_)
     return false;
   if (!threshold_)
     return true;
@@ -292,7 +332,10 @@ HistogramClassifier::classify(const SurfletSet& query) const
     answer.ranking[m].posterior = p[m];
   std::stable_sort(answer.ranking.begin(), answer.ranking.end(),
                    [this](const auto& a, const auto& b) { return better(a.score, b.score); });
-  answer.unknown = !accepted(answer.ranking.front());
+  const auto& best = answer.ranking.front();
+  const auto& next = answer.ranking[answer.ranking.size() > 1 ? 1 : 0];
+  answer.strangeness = strangeness(best.relative_misfit, best.misfit, next.misfit);
+  answer.unknown = !accepted(answer);
   if (answer.ranking.size() > 1)
     answer.margin = std::abs(answer.ranking[0].score - answer.ranking[1].score);
   return answer;

@@ -45,10 +45,11 @@ TEST_F(Experiment, HelpNamesEveryExperimentAndOption)
   const AppRun r = run("experiment", {"-h"});
   EXPECT_TRUE(ended(r, 0, {}));
   for (const std::string word :
-       {"classification", "criteria",     "noise",  "visibility", "resolution",     "elongation",
-        "distortion",     "peers",        "space",  "-meshes",    "rejection",      "-strangers",
-        "-skip",          "-out",         "-tests", "-objects",   "-normal_radius", "-intervals",
-        "-peers",         "-saturations", "-radii", "-queries",   "-seed",          "-threads"})
+       {"classification", "criteria",       "noise",      "visibility", "resolution",
+        "elongation",     "distortion",     "peers",      "space",      "-meshes",
+        "rejection",      "-strangers",     "-skip",      "-out",       "-tests",
+        "-objects",       "-normal_radius", "-intervals", "retrieval",  "-peers",
+        "-saturations",   "-radii",         "-queries",   "-seed",      "-threads"})
     EXPECT_NE(r.out.find(word), std::string::npos) << word;
 }
 
@@ -70,7 +71,9 @@ TEST_F(Experiment, WrongUsageIsNamed)
       {{"criteria", "-out", out, "-meshes", out, "-peers", "vfh"}, "-peers"},
       {{"peers", "-out", out, "-meshes", out, "-peers", "vfh,sift"}, "'sift'"},
       {{"noise", "-out", out, "-meshes", out, "-skip", "2"}, "-skip"},
-      {{"peers", "-out", out, "-meshes", out, "-strangers", "box"}, "-strangers"}};
+      {{"peers", "-out", out, "-meshes", out, "-strangers", "box"}, "-strangers"},
+      {{"retrieval", "-out", out, "-meshes", out, "-objects", "box"}, "two classes"},
+      {{"retrieval", "-out", out, "-meshes", out, "-tests", "1"}, "two models"}};
   for (const auto& [arguments, named] : wrong)
     EXPECT_TRUE(ended(run("experiment", arguments), 1, {named, "-h"})) << named;
   for (const std::string option : {"-saturations", "-radii", "-queries"})
@@ -204,4 +207,25 @@ TEST_F(Experiment, RejectionCountsKnownAndStrangers)
   EXPECT_EQ(table[1][2], "ideal");
   EXPECT_EQ(table[1][4], "2") << "known objects are accepted";
   EXPECT_EQ(table[1][6], "0") << "a box is neither sphere nor cup";
+}
+
+TEST_F(Experiment, RetrievalFindsTheClass)
+{
+  const AppRun r = run("experiment", twoObjects({"retrieval", "-tests", "3", "-seed", "4"}));
+  ASSERT_TRUE(ended(r, 0, {}));
+  EXPECT_NE(r.out.find("2 classes of 3 models"), std::string::npos) << r.out;
+  const auto table = rows("retrieval.csv");
+  ASSERT_EQ(table.size(), 40u) << "thirteen figures of three collections";
+  EXPECT_EQ(table[0], (std::vector<std::string>{"variety", "figure", "value", "low", "high"}));
+  EXPECT_EQ(table[1], (std::vector<std::string>{"0.1", "nearest neighbour", "1", "1", "1"}));
+  for (std::size_t i = 1; i < table.size(); ++i) {
+    const double value = std::stod(table[i][2]);
+    EXPECT_LE(std::stod(table[i][3]), value);
+    EXPECT_GE(std::stod(table[i][4]), value);
+    if (table[i][0] == "0.1") {
+      EXPECT_EQ(value, 1) << table[i][1] << ": a sphere is not a cup";
+    }
+  }
+  EXPECT_NE(fs::exists(path("results/retrieval.svg")),
+            r.err.find("no picture") != std::string::npos);
 }

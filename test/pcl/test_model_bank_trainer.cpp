@@ -149,9 +149,21 @@ TEST(ModelBankTrainer, StrangersAreToldFromNoise)
   }
   for (const auto* name : {"box", "tetrahedron", "ellipsoid", "cylinder"}) {
     const auto answer = classifier.classify(sampleIsoMesh(meshOf(name), kSurflets, 5));
-    EXPECT_TRUE(answer.unknown) << name << " " << answer.ranking[0].relative_misfit;
-    EXPECT_FALSE(answer.ranking.empty());
+    EXPECT_TRUE(answer.unknown) << name << " " << answer.strangeness;
+    ASSERT_GT(answer.ranking.size(), 1u);
+    const auto &best = answer.ranking[0], &next = answer.ranking[1];
+    EXPECT_NEAR(answer.strangeness,
+                best.relative_misfit * std::sqrt(std::min(1.0, best.misfit / next.misfit)), 1e-12);
   }
+  ModelDatabase alone; // without runner-up the relative misfit decides
+  alone.add(shapes()[0]);
+  HistogramClassifier one(alone);
+  const auto answer = one.classify(sampleIsoMesh(meshOf("box"), kSurflets, 5));
+  EXPECT_EQ(answer.strangeness, answer.ranking[0].relative_misfit);
+  double sum = 0;
+  for (const auto& member : alone[0].members)
+    sum += member.misfit_limit / static_cast<double>(alone[0].members.size());
+  EXPECT_NEAR(one.calibratedMisfitLimit().value(), sum, 1e-12);
   ModelDatabase plain;
   plain.add(quickTrainer().train("cup", meshOf("cup")));
   EXPECT_FALSE(HistogramClassifier(plain).calibratedMisfitLimit());

@@ -19,10 +19,10 @@ struct ModelMatch {
   std::string label;
   std::string condition; ///< what the best member was trained under ("noise 4 %"): of the winner,
                          ///< an estimate of the query's noise and visibility
-  double score = 0;     ///< value of the criterion; which end is better: smallerIsBetter()
-  double surprise = 0;  ///< nats per feature by which the log-likelihood falls short of what the
-                        ///< model expects of its own features; near 0 for a perfect match
-  double posterior = 0; ///< probability of the model among those of the database, in [0, 1]
+  double score = 0;      ///< value of the criterion; which end is better: smallerIsBetter()
+  double surprise = 0;   ///< nats per feature by which the log-likelihood falls short of what the
+                         ///< model expects of its own features; near 0 for a perfect match
+  double posterior = 0;  ///< probability of the model among those of the database, in [0, 1]
   /** \brief Kullback-Leibler divergence of the query from the best member, sum Q ln (Q / H), in
    * nats per feature, >= 0: what the features tell against the model. Fewer features make it
    * larger. */
@@ -37,8 +37,12 @@ struct Classification {
   std::vector<ModelMatch> ranking; ///< all models, best first; empty if the query had no feature
   bool unknown = true;             ///< no model is similar enough (setUnknownThreshold())
   double margin = 0;               ///< score difference of the two best models, >= 0
-  std::uint64_t features = 0;      ///< features used
-  std::uint64_t rejected = 0;      ///< pairs drawn without feature
+  /** \brief The winner's relative misfit times the square root of its misfit's share of the
+   * runner-up's (at most 1; 1 without runner-up): a stranger lies between the models, what is known
+   * lies near one. 0 if the winner's misfit was not measured in training. */
+  double strangeness = 0;
+  std::uint64_t features = 0; ///< features used
+  std::uint64_t rejected = 0; ///< pairs drawn without feature
 
   /** \brief The best model, or null if unknown. */
   const ModelMatch*
@@ -112,18 +116,21 @@ public:
   {
     threshold_ = threshold;
   }
-  /** \brief Takes a query for unknown if the winner's relative misfit exceeds \p limit. Stands
-   * noise and missing parts far better than a threshold of the surprise, but needs models trained
-   * in a bank and the default number of features. No limit by default; a winner that was trained
-   * without bank passes. */
+  /** \brief Takes a query for unknown if its strangeness exceeds \p limit. Stands noise and missing
+   * parts far better than a threshold of the surprise, but needs models trained in a bank and the
+   * default number of features. No limit by default; a winner that was trained without bank passes.
+   */
   void
   setMisfitLimit(std::optional<double> limit)
   {
     misfit_limit_ = limit;
   }
-  /** \brief A limit from the training data alone: the mean over the members of what 97.5 % of the
-   * samples stay below that were left out of a member's histogram; nothing if no member was trained
-   * in a bank. */
+  /** \brief A limit from the training data alone: the mean over the members of what the strangeness
+   * of 97.5 % of the samples stays below that were left out of a member's histogram; nothing if no
+   * member was trained in a bank.
+   *
+   * The runner-up is the nearest member of another model: by the Kullback-Leibler divergence of the
+   * histograms, as if all models had one size. Of more than 256 members, 256 are looked at. */
   std::optional<double> calibratedMisfitLimit() const;
   /** \brief Compares shapes regardless of size: query and models are scaled to one diameter
    * [Wahl 2007, Sec. 3.6.9]. Default off. */
@@ -166,7 +173,8 @@ private:
   Candidate bestMember(const Query& query, std::size_t model, std::vector<float>& means) const;
   double score(const PenalizedHistogram& p, const Histogram& q, double mean_log) const;
   bool better(double a, double b) const;
-  bool accepted(const ModelMatch& match) const;
+  bool accepted(const Classification& answer) const;
+  double nearestRival(std::size_t member) const;
 
   std::vector<ModelInfo> models_;
   std::vector<MemberInfo> infos_; ///< parallel to members_
