@@ -17,7 +17,7 @@ addPlaces(CommandLine& line, ViewOptions& v)
                       {"two", ViewSet::Two},
                       {"ring24", ViewSet::Ring24},
                       {"all24", ViewSet::All24}});
-  line.real("-distance", "D", "of the sensors from the middle of the scene, default 1.2",
+  line.real("-distance", "D", "of the sensors from the middle of the scene, default 1.4",
             v.distance, 1e-6, 1e6);
   line.real("-elevation", "A", "of the sensors above the horizon, degrees, default 45", v.elevation,
             -89, 89);

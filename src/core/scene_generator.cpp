@@ -292,6 +292,8 @@ bodiesOf(const Scene& scene, const std::vector<SceneItem>& objects,
     const std::size_t number = item.number - 1;
     const auto& source =
         number < objects.size() ? objects.at(number) : clutter.at(number - objects.size());
+    if (!source.mesh)
+      throw std::invalid_argument("bodiesOf: '" + source.label + "' has no mesh to be sensed");
     SensedBody body{source.mesh(), item.number, static_cast<std::uint32_t>(k + 1)};
     const auto& m = item.pose;
     for (auto& v : body.mesh.vertices) {

@@ -85,7 +85,7 @@ enum class ViewSet {
 struct ViewOptions {
   ViewSet views = ViewSet::Ring24;
   std::array<double, 3> target{0, 0, 0.05}; ///< that every sensor looks at
-  double distance = 1.2;                    ///< from there, > 0
+  double distance = 1.4;                    ///< from there, > 0
   double elevation = 45;                    ///< above the horizon; the upper ring; in (-90, 90)
   double second_elevation = 25;             ///< the lower ring
   double azimuth = 0;                       ///< of the first sensor, about the vertical

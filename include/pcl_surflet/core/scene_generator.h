@@ -22,7 +22,7 @@ struct SceneItem {
   /** \brief Draws n surflets uniformly by area with a seed. */
   std::function<SurfletSet(std::size_t n, std::uint64_t seed)> sample;
   /** \brief The item as a mesh, for sensors; a shape's has some 20,000 vertices. */
-  std::function<TriangleMesh()> mesh;
+  std::function<TriangleMesh()> mesh = {};
 };
 
 /** \brief A mesh of the shape with roughly as many vertices. */
@@ -125,7 +125,8 @@ PCL_SURFLET_API SurfletSet emptyBackground(const SceneOptions& options);
 PCL_SURFLET_API std::vector<SensedBody> backgroundBodies(const SceneOptions& options);
 
 /** \brief What a sensor meets in \p scene, which generateScene() made of the other arguments: the
- * background, then the items in their places. */
+ * background, then the items in their places.
+ * \throws std::invalid_argument if a parameter is out of range or an item has no mesh */
 PCL_SURFLET_API std::vector<SensedBody> bodiesOf(const Scene& scene,
                                                  const std::vector<SceneItem>& objects,
                                                  const std::vector<SceneItem>& clutter,
