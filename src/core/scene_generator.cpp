@@ -78,6 +78,7 @@ placementItem(SurfletSet upright, const Pose& posture)
   const Extent extent = computeExtent(item.surflets);
   std::copy(extent.centroid, extent.centroid + 3, item.centroid.begin());
   item.radius = extent.r_max;
+  item.r_mean = extent.r_mean;
   for (std::size_t i = 0; i < item.surflets.size(); ++i)
     item.radius_xy = std::max(item.radius_xy, std::hypot(item.surflets.x[i] - item.centroid[0],
                                                          item.surflets.y[i] - item.centroid[1]));
@@ -257,6 +258,7 @@ generateScene(const std::vector<SceneItem>& objects, const std::vector<SceneItem
     auto& item = scene.items[k];
     item.pose = placed[k].pose.matrix();
     item.centroid = placed[k].centroid;
+    item.r_mean = placed[k].r_mean;
     item.surflets = placed[k].surflets.size();
     append(scene, noisy(placed[k].surflets, o.noise, seed + k + 1), item.number,
            static_cast<std::uint32_t>(k + 1));

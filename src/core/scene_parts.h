@@ -29,6 +29,7 @@ struct PlacementItem {
   SurfletSet surflets;  ///< in the posture it will have, moved as it is placed
   Pose pose;            ///< from the item as it was to surflets
   double radius = 0;    ///< largest distance to the centroid
+  double r_mean = 0;    ///< mean distance to the centroid
   double radius_xy = 0; ///< the same, horizontally
   Vector3 centroid{0, 0, 0};
 };

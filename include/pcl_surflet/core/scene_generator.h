@@ -92,6 +92,7 @@ struct PlacedItem {
   bool clutter = false;             ///< unknown to the database
   std::array<double, 16> pose{};    ///< item to scene, 4 x 4, row by row
   std::array<double, 3> centroid{}; ///< of its surflets, in the scene
+  double r_mean = 0; ///< mean distance of its surflets to the centroid [Wahl 2007, Eq. 2.24]
   std::size_t surflets = 0;
 };
 
