@@ -12,9 +12,9 @@ using Corner = DepthBuffer::Corner;
 
 constexpr std::size_t kMaxPixels = std::size_t{1} << 26;
 constexpr double kFromTheEdge = 1e-12; ///< squared pixels
-/** \brief Both triangles at a shared edge take a pixel that lies on it, whatever rounding says. */
-constexpr double kOnEdge = 1e-9;
 
+/** \brief Swapping b and c changes nothing but the sign, bit by bit: so a pixel on an edge that two
+ * triangles share belongs to one of them at least. */
 double
 twiceArea(const Corner& a, const Corner& b, const Corner& c)
 {
@@ -54,11 +54,11 @@ DepthBuffer::draw(const std::array<Corner, 3>& t, std::uint32_t id)
   for (std::size_t row = first_row; row < end_row; ++row)
     for (std::size_t column = first_column; column < end_column; ++column) {
       const Corner at = {static_cast<double>(column), static_cast<double>(row), 0};
-      const double u = twiceArea(at, t[1], t[2]) / area, v = twiceArea(t[0], at, t[2]) / area,
-                   w = 1 - u - v;
-      if (std::min({u, v, w}) < -kOnEdge)
+      const double a = twiceArea(at, t[1], t[2]), b = twiceArea(at, t[2], t[0]),
+                   c = twiceArea(at, t[0], t[1]), sum = a + b + c;
+      if (std::min({a, b, c}) < 0 && std::max({a, b, c}) > 0)
         continue;
-      const double nearness = u * t[0].nearness + v * t[1].nearness + w * t[2].nearness;
+      const double nearness = (a * t[0].nearness + b * t[1].nearness + c * t[2].nearness) / sum;
       double& foremost = nearness_[row * columns_ + column];
       if (!(nearness > foremost))
         continue;

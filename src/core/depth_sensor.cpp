@@ -19,7 +19,7 @@ constexpr double kDegree = M_PI / 180;
  * endlessly large in the picture. */
 constexpr double kNear = 1e-6;
 /** \brief A surface hides itself from the projector by up to this many pixels of its slope. */
-constexpr double kShadowPixels = 2, kShadowSlope = 10;
+constexpr double kShadowPixels = 2, kShadowSlope = 5;
 constexpr std::uint64_t kNoiseStream = 0x6e6f697365ULL, kFlyingStream = 0x666c79ULL;
 
 void
@@ -148,21 +148,29 @@ cosineTo(const Facet& f, const Vector3& line)
   return std::abs(dot(n, line)) / (norm(n) * norm(line));
 }
 
-/** \brief Does \p projector reach the point \p p of \p facet? */
+/** \brief Does \p projector reach the point \p p of \p facet, on the side that the camera sees? */
 bool
 isLit(const Pinhole& projector, const Vector3& p, const Facet& facet)
 {
+  const Vector3 n = doubledAreaNormal(facet.corners[0], facet.corners[1], facet.corners[2]);
+  if ((dot(n, p) > 0) != (dot(n, projector.lineTo(p)) > 0))
+    return false;
   const auto at = projector.project(p);
-  const double columns = static_cast<double>(projector.buffer().columns() - 1),
-               rows = static_cast<double>(projector.buffer().rows() - 1);
-  if (!(at.column >= 0 && at.column < columns && at.row >= 0 && at.row < rows))
+  const double last_column = static_cast<double>(projector.buffer().columns() - 1),
+               last_row = static_cast<double>(projector.buffer().rows() - 1);
+  if (!(std::abs(2 * at.column - last_column) <= last_column + 1 &&
+        std::abs(2 * at.row - last_row) <= last_row + 1))
     return false;
   const double cosine = std::min(1.0, cosineTo(facet, projector.lineTo(p)));
   const double slope = std::sqrt(1 - cosine * cosine) / std::max(cosine, 1 / kShadowSlope);
   const double allowance = kShadowPixels * p[2] / projector.focal() * (slope + 0.1);
-  const auto column = static_cast<std::size_t>(at.column), row = static_cast<std::size_t>(at.row);
-  for (const std::size_t c : {column, column + 1})
-    for (const std::size_t r : {row, row + 1})
+  const auto neighbours = [](double v, double last) {
+    return std::array<std::size_t, 2>{
+        static_cast<std::size_t>(std::clamp(std::floor(v), 0.0, last)),
+        static_cast<std::size_t>(std::clamp(std::floor(v) + 1, 0.0, last))};
+  };
+  for (const std::size_t c : neighbours(at.column, last_column))
+    for (const std::size_t r : neighbours(at.row, last_row))
       if (1 / projector.buffer().nearness(c, r) >= p[2] - allowance)
         return true;
   return false;

@@ -52,6 +52,16 @@ pointsOf(const DepthScan& scan, std::vector<std::size_t>& pixels)
   return points;
 }
 
+/** \brief Is it certain which side of the surface is seen? Of a surface seen from its edge a small
+ * error of the normal would turn it around. */
+bool
+facesSurely(const pcl::PointXYZ& p, const pcl::Normal& n)
+{
+  constexpr float kLeastCosine = 0.087f; // 85 degrees
+  const auto sight = p.getVector3fMap();
+  return std::abs(n.getNormalVector3fMap().dot(sight)) >= kLeastCosine * sight.norm();
+}
+
 } // namespace
 
 OrientedScan
@@ -74,6 +84,8 @@ withNormals(DepthScan scan, double radius)
   pcl::PointCloud<pcl::Normal> normals;
   estimation.compute(normals);
   for (std::size_t k = 0; k < pixels.size(); ++k) {
+    if (!facesSurely((*points)[k], normals[k]))
+      continue;
     out.nx[pixels[k]] = normals[k].normal_x;
     out.ny[pixels[k]] = normals[k].normal_y;
     out.nz[pixels[k]] = normals[k].normal_z;
