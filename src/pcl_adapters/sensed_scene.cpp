@@ -7,9 +7,11 @@
 #include <pcl/features/normal_3d.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 namespace pcl_surflet {
 namespace {
@@ -110,8 +112,13 @@ sensedScene(const Scene& scene, const std::vector<OrientedScan>& scans)
 {
   std::vector<SurfletSet> sets(scene.items.size() + 1); // of each instance
   for (const auto& s : scans)
-    for (std::size_t i = 0; i < s.scan.z.size(); ++i)
-      sets.at(s.scan.instances[i]).appendChecked(inScene(s, i));
+    for (std::size_t i = 0; i < s.scan.z.size(); ++i) {
+      if (s.scan.instances[i] >= sets.size())
+        throw std::invalid_argument("sensedScene: a scan shows instance " +
+                                    std::to_string(s.scan.instances[i]) + ", the scene has " +
+                                    std::to_string(scene.items.size()));
+      sets[s.scan.instances[i]].appendChecked(inScene(s, i));
+    }
   Scene out;
   out.items = scene.items;
   for (std::size_t k = 0; k < sets.size(); ++k) {

@@ -136,6 +136,15 @@ TEST(SensedScene, LabelsSayWhereThePointsAre)
   }
 }
 
+TEST(SensedScene, ScansOfAnotherSceneAreRefused)
+{
+  const auto items = things();
+  const SceneOptions o = table(3);
+  const auto scans =
+      senseViews(bodiesOf(generateScene(items, {}, o), items, {}, o), coarse(ViewSet::One), 1);
+  EXPECT_THROW(sensedScene(Scene(), scans), std::invalid_argument);
+}
+
 TEST(SensedScene, MoreViewsSeeMore)
 {
   const auto items = things();
