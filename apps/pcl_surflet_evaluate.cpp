@@ -3,6 +3,7 @@
 #include "app_common.h"
 #include "evaluation/comparison.h"
 #include "scene_items.h"
+#include "sensor_options.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,8 @@ struct Options {
   std::vector<double> critical; ///< distance factors
   Scaling scaling = Scaling::None;
   std::vector<double> factors = {1, 2, 5, 10};
+  double presence = 1;   ///< probability that an item is present
+  std::size_t items = 0; ///< that scenes choose from
   std::uint64_t scenes = 10, seed = 1001, threads = 0, bins = 0;
   bool csv = false;
 };
@@ -94,6 +97,8 @@ sceneOptions(const Options& o, std::uint64_t k)
 {
   SceneOptions scene = o.recogniser.scene;
   scene.seed = o.seed + k;
+  if (o.presence < 1)
+    scene.present = presentOf(o.items, o.presence, scene.seed);
   return scene;
 }
 
@@ -111,7 +116,7 @@ evaluateCritical(const Things& things, const Options& o)
           scene.distance_factor = factor;
           scene.present = 2;
           const auto& item = things.objects[k % things.objects.size()];
-          return generateScene({item, item}, things.clutter, scene);
+          return seenScene({item, item}, things.clutter, scene, o.recogniser.sensing);
         },
         o);
 }
@@ -130,7 +135,9 @@ evaluateArea(const Things& things, const Options& base)
       objects.insert(objects.end(), things.objects.begin(), things.objects.end());
     evaluateRow(
         o.row + " " + number(factor), things.objects, trained(things.objects, o),
-        [&](std::uint64_t k) { return generateScene(objects, things.clutter, sceneOptions(o, k)); },
+        [&](std::uint64_t k) {
+          return seenScene(objects, things.clutter, sceneOptions(o, k), o.recogniser.sensing);
+        },
         o);
   }
 }
@@ -151,7 +158,8 @@ evaluateModels(const Things& things, const Options& o)
     evaluateRow(
         o.row + " " + number(factor), known, trained(known, o),
         [&](std::uint64_t k) {
-          return generateScene(things.objects, things.clutter, sceneOptions(o, k));
+          return seenScene(things.objects, things.clutter, sceneOptions(o, k),
+                           o.recogniser.sensing);
         },
         o);
   }
@@ -172,7 +180,8 @@ evaluate(const Things& things, const Options& o)
     evaluateRow(
         o.row, things.objects, trained(things.objects, o),
         [&](std::uint64_t k) {
-          return generateScene(things.objects, things.clutter, sceneOptions(o, k));
+          return seenScene(things.objects, things.clutter, sceneOptions(o, k),
+                           o.recogniser.sensing);
         },
         o);
 }
@@ -220,6 +229,7 @@ addParameters(CommandLine& line, RecogniserOptions& o, std::uint64_t& bins)
 struct Contents {
   std::string clutter, extra;
   std::uint64_t present = 0, unknown = 0;
+  SceneSensing sensing;
 };
 
 void
@@ -229,6 +239,8 @@ addScenes(CommandLine& line, Options& o, Contents& contents)
   line.count("-scenes", "N", "number of scenes, default 10", o.scenes, 1, 1000000);
   line.count("-present", "N", "items present, chosen at random, default all", contents.present, 1,
              1000000);
+  line.real("-presence", "P", "each item is present with this probability, in place of -present",
+            o.presence, 0, 1);
   line.text("-clutter", "ITEM,...", "things unknown to the database", contents.clutter);
   line.count("-unknown", "N", "things present of the clutter, default all", contents.unknown, 0,
              1000000);
@@ -236,6 +248,7 @@ addScenes(CommandLine& line, Options& o, Contents& contents)
   line.real("-density", "D", "points per squared unit, default 470000", scene.density, 1e-9, 1e12);
   line.real("-noise", "S", "moves points along their normals by up to S, default 0", scene.noise, 0,
             1e6);
+  addSensor(line, contents.sensing);
 }
 
 /** \brief An option that takes several numbers. */
@@ -301,10 +314,19 @@ settle(Options& o, const CommandLine& line, const Contents& contents, const Thin
     throw UsageError(std::string("option ") +
                      (scene.present > things.objects.size() ? "-present" : "-unknown") +
                      ": so many things were not given");
+  if (line.given("-views"))
+    o.recogniser.sensing = contents.sensing;
+  if (line.given("-views") && line.given("-noise"))
+    throw UsageError("option -noise: is for complete surfaces; with -views give -sensor_noise");
+  if (line.given("-presence") && (line.given("-present") || o.scaling != Scaling::None))
+    throw UsageError("option -presence: goes neither with -present nor with -scaling");
+  o.items = things.objects.size();
   for (auto& factor : o.factors)
     factor = std::floor(factor);
   o.recogniser.bins = static_cast<int>(o.bins);
   o.recogniser.dissertation.threads = static_cast<unsigned>(o.threads);
+  if (o.recogniser.sensing)
+    o.recogniser.sensing->threads = static_cast<unsigned>(o.threads);
   o.comparison.threads = static_cast<unsigned>(o.threads);
   o.comparison.leaf = o.recogniser.leaf;
 }

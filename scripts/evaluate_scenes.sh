@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # Evaluates scene interpretation: one line below is one row of the table in
 # doc/interpretation/results.md. Results go to DIR: a file for each row and list of methods under
-# rows/, all of them in scenes.csv (overall) and objects.csv (each object), a table in scenes.txt and
-# the curves' critical.csv and scaling.csv. Rows that are there already are not run again, so a run
-# can be interrupted, and other methods can be added to the same DIR later.
+# rows/, all of them in scenes.csv (overall) and objects.csv (each object), tables in scenes.txt and
+# (what a sensor sees) sensor.txt and the curves' critical.csv and scaling.csv. Rows that are there
+# already are not run again, so a run can be interrupted, and other methods can be added to the same
+# DIR later.
 #
 # usage: evaluate_scenes.sh DIR [SCENES]
 #   METHODS  what is compared, with commas; default all
@@ -73,6 +74,14 @@ row others_excluded -treatment exclude "${others[@]}"
 row others_modelled -treatment model "${others[@]}"
 row others_touching -treatment exclude -spacing pile "${others[@]}"
 
+# What a depth camera sees (Table 5.2): of the seven, each is absent as often as present; models, the
+# empty table and the classic's examples come from the same sensor.
+for views in one two ring24; do
+  sensor=(-treatment model -presence 0.5 -views "$views" -sensor_noise 0.0005 -grazing 80)
+  row "sensor_$views" "${sensor[@]}" "${seven[@]}"
+  row "sensor_${views}_touching" "${sensor[@]}" -spacing pile "${seven[@]}"
+done
+
 # Curves: fewer scenes, as each is several rows.
 some=$(((scenes + 1) / 2))
 few=$(((scenes + 9) / 10))
@@ -101,10 +110,19 @@ awk -F, 'NR == 1 {
     next
   }
   function rate(at) { return sprintf("%.1f [%.1f, %.1f]", $at, $(at + 1), $(at + 2)) }
+  /^sensor_/ { next }
   { printf "| %s | %s | %d | %s | %.1f | %s | %s | %s | %.1f | %.2f | %.2f | %.2f | %.2f |\n", $1, $2,
       $5, rate(21), $33, rate(24), rate(27), rate(30), $34, $35, $8, $9, $11 }' \
   "$directory/scenes.csv" >"$directory/scenes.txt"
-cat "$directory/scenes.txt"
+awk -F, 'NR == 1 {
+    print "| row | method | scenes | present | class. (5.9) | accuracy (5.10) | recall | precision | centre | false / scene | s / scene |"
+    print "|---|---|---|---|---|---|---|---|---|---|---|"
+    next
+  }
+  function rate(at) { return sprintf("%.1f [%.1f, %.1f]", $at, $(at + 1), $(at + 2)) }
+  /^sensor_/ { printf "| %s | %s | %d | %d | %s | %.1f | %s | %s | %s | %.2f | %.2f |\n", $1, $2, $5, $13,
+      rate(21), $33, rate(27), rate(30), rate(37), $35, $8 }' "$directory/scenes.csv" >"$directory/sensor.txt"
+cat "$directory/scenes.txt" "$directory/sensor.txt"
 # draw PLOT CSV: if there is anything to draw.
 draw() {
   [ "$(wc -l <"$directory/$2.csv")" -gt 1 ] || return 0

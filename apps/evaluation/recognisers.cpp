@@ -15,16 +15,15 @@ namespace {
 constexpr int kDissertationBins = 5, kExplanationBins = 7;
 /** \brief Examples of an object for the classic: turns about the vertical, or postures as well. */
 constexpr std::uint64_t kTurns = 12, kPostures = 48;
+constexpr std::uint64_t kFewestSensed = 3;
 constexpr unsigned kBowlPlanes = 5;
 /** \brief Edge of what carries an example, in diameters of the object. */
 constexpr double kExampleSize = 2;
 
 SurfletSet
-emptyCells(const SceneOptions& scene, double leaf)
+emptyCells(const SceneOptions& scene, const Sensing& sensing, double leaf)
 {
-  SceneOptions o = scene;
-  o.seed = kTrainingSeed;
-  return reduceToCells(emptyBackground(o), leaf).cells;
+  return reduceToCells(seenBackground(scene, sensing), leaf).cells;
 }
 
 /** \brief Lets \p find see only what is not background, and gives its results the scene's indices.
@@ -49,6 +48,7 @@ public:
   {
     TrainingOptions t;
     t.scene = o.scene;
+    t.sensing = o.sensing;
     t.bins = o.bins;
     if (t.bins == 0)
       t.bins = by_explanation ? kExplanationBins : kDissertationBins;
@@ -58,7 +58,7 @@ public:
     t.threads = o.dissertation.threads;
     database_ = trainedDatabase(objects, t);
     if (o.dissertation.background == BackgroundTreatment::Exclude)
-      empty_ = emptyCells(o.scene, o.leaf);
+      empty_ = emptyCells(o.scene, o.sensing, o.leaf);
   }
 
   SceneInterpretation
@@ -107,17 +107,29 @@ planesOf(Background background)
   }
 }
 
+/** \brief Of each object. Sensed examples are expensive: few from everywhere, many from one side.
+ */
+std::uint64_t
+examplesFor(const RecogniserOptions& o)
+{
+  const std::uint64_t whole = o.scene.posture == Posture::Upright ? kTurns : kPostures;
+  if (!o.sensing)
+    return whole;
+  return std::max<std::uint64_t>(kFewestSensed, 2 * whole / sensorPoses(o.sensing->views).size());
+}
+
 class ClassicRecogniser : public Recogniser {
 public:
   ClassicRecogniser(const std::vector<SceneItem>& objects, const RecogniserOptions& o,
                     Descriptor descriptor, bool exclude)
-      : leaf_(o.leaf), exclude_(exclude), classic_(parametersOf(o, descriptor, exclude))
+      : leaf_(o.leaf), sensing_(o.sensing), exclude_(exclude),
+        classic_(parametersOf(o, descriptor, exclude))
   {
     for (const auto& object : objects)
       labels_.push_back(object.label);
     if (exclude)
-      empty_ = emptyCells(o.scene, leaf_);
-    const std::uint64_t examples = o.scene.posture == Posture::Upright ? kTurns : kPostures;
+      empty_ = emptyCells(o.scene, o.sensing, leaf_);
+    const std::uint64_t examples = examplesFor(o);
     for (std::size_t i = 0; i < objects.size(); ++i)
       for (std::uint64_t k = 0; k < examples; ++k)
         learn(i, objects[i], o.scene, kTrainingSeed + k);
@@ -152,11 +164,12 @@ private:
     // Nothing is learned from planes in a bowl: they cannot be told from the object.
     if (alone.background == Background::Bowl && !exclude_)
       alone.background = Background::Plane;
-    if (alone.background != Background::Bowl) // a smaller bowl would be another one
+    // A smaller bowl would be another one, and to a sensor it matters where an object stands.
+    if (alone.background != Background::Bowl && !sensing_)
       alone.size = std::min(alone.size, kExampleSize * farthestDistance(item.sample(1000, seed)));
-    SurfletSet cells = reduceToCells(generateScene({item}, {}, alone).surflets, leaf_).cells;
+    SurfletSet cells = reduceToCells(seenScene({item}, {}, alone, sensing_).surflets, leaf_).cells;
     if (exclude_)
-      cells = cells.subset(cellsAwayFrom(cells, emptyCells(alone, leaf_), leaf_));
+      cells = cells.subset(cellsAwayFrom(cells, emptyCells(alone, sensing_, leaf_), leaf_));
     classic_.learn(object, cells);
   }
 
@@ -176,6 +189,7 @@ private:
   }
 
   double leaf_;
+  Sensing sensing_;
   bool exclude_;
   TabletopClassic classic_;
   std::vector<std::string> labels_;

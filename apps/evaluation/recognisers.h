@@ -16,6 +16,7 @@ namespace apps {
 
 struct RecogniserOptions {
   SceneOptions scene; ///< what scenes will be like; its seed is of no account
+  Sensing sensing;    ///< how they will be seen
   ExplanationParameters explanation;
   DissertationParameters dissertation; ///< background, threads: of all methods
   double leaf = 0.0058;
@@ -47,6 +48,9 @@ const std::vector<std::string>& recogniserNames();
  *
  * - dissertation, explanation: the interpretations of the library. Excluded background: cells near
  *   those of an empty scene, sensed another time, are left out first.
+ *
+ * Where a sensor looks, all of it is what this sensor sees: objects alone from 24 places for
+ * models, the empty scene from those of the scenes, examples on a background likewise.
  * - classic_vfh, classic_esf: TabletopClassic, whatever the treatment. It removes as many planes as
  *   the background has and is trained on each object standing alone on that background.
  * - exclusion_vfh: the same, but what is near the empty scene is left out in place of planes. */

@@ -23,18 +23,31 @@ instancesOf(const CellScene& scene, const Detection& d)
   return cells;
 }
 
+/** \brief Is there a detection of the item's name whose middle is within half r_mean of its? */
+bool
+isCentred(const CellScene& scene, const PlacedItem& item, const std::vector<Detection>& detections)
+{
+  return std::any_of(detections.begin(), detections.end(), [&](const Detection& d) {
+    const Extent at = computeExtent(scene.cells.subset(d.cells));
+    const double distance =
+        std::hypot(at.centroid[0] - item.centroid[0], at.centroid[1] - item.centroid[1],
+                   at.centroid[2] - item.centroid[2]);
+    return d.label == item.label && !d.cells.empty() && distance <= item.r_mean / 2;
+  });
+}
+
 std::string
 row(const std::string& label, const Counts& c)
 {
   const Rate right = rateOf(c.right, c.clusters), strict = rateOf(c.strict, c.clusters),
-             recall = rateOf(c.found, c.present);
+             recall = rateOf(c.found, c.present), centre = rateOf(c.centred, c.present);
   char text[256];
   std::snprintf(text, sizeof(text),
                 "%-12.12s %7zu %8zu   %5.1f [%5.1f,%5.1f]  %5.1f [%5.1f,%5.1f]  %5.1f  %5.1f "
-                "[%5.1f,%5.1f]\n",
+                "[%5.1f,%5.1f]  %5.1f\n",
                 label.c_str(), c.present, c.clusters, right.percent, right.low, right.high,
                 strict.percent, strict.low, strict.high, rateOf(c.right_cells, c.cells).percent,
-                recall.percent, recall.low, recall.high);
+                recall.percent, recall.low, recall.high, centre.percent);
   return text;
 }
 
@@ -89,6 +102,7 @@ Counts::operator+=(const Counts& o)
   right += o.right;
   strict += o.strict;
   doubles += o.doubles;
+  centred += o.centred;
   cells += o.cells;
   right_cells += o.right_cells;
   return *this;
@@ -131,7 +145,10 @@ Score::add(const CellScene& scene, const std::vector<Detection>& detections)
   };
   for (const auto& item : scene.items)
     for (std::size_t m = 0; m < labels_.size(); ++m)
-      counts_[m].present += !item.clutter && item.label == labels_[m] ? 1 : 0;
+      if (!item.clutter && item.label == labels_[m]) {
+        ++counts_[m].present;
+        counts_[m].centred += isCentred(scene, item, detections) ? 1 : 0;
+      }
   std::vector<char> found(scene.items.size() + 1, 0);
   for (const auto& d : detections) {
     Counts& c = counts_[d.model];
@@ -173,7 +190,7 @@ std::string
 Score::table() const
 {
   std::string text = "object       present clusters   classification %     strict %             "
-                     "acc.   recall %\n";
+                     "acc.   recall %              centre %\n";
   for (std::size_t m = 0; m < labels_.size(); ++m)
     if (counts_[m].present + counts_[m].clusters > 0)
       text += row(labels_[m], counts_[m]);
@@ -192,7 +209,8 @@ Score::csvHeader()
   std::string text = "object,present,found,clusters,right,strict,doubles,cells,right_cells";
   for (const std::string rate : {"classification", "strict_rate", "recall", "precision"})
     text += "," + rate + "," + rate + "_low," + rate + "_high";
-  return text + ",accuracy,recall_times_precision,false_per_scene";
+  return text +
+         ",accuracy,recall_times_precision,false_per_scene,centred,centre,centre_low,centre_high";
 }
 
 std::string
@@ -206,10 +224,13 @@ Score::csv(const std::string& prefix) const
     for (const Rate& r : {rateOf(c.right, c.clusters), rateOf(c.strict, c.clusters),
                           rateOf(c.found, c.present), precisionOf(c)})
       text += "," + number(r.percent) + "," + number(r.low) + "," + number(r.high);
+    const Rate centre = rateOf(c.centred, c.present);
     const auto wrong = static_cast<double>(c.clusters - c.strict + c.doubles);
     return text + "," + number(rateOf(c.right_cells, c.cells).percent) + "," +
            number(recallTimesPrecision(c)) + "," +
-           number(scenes_ == 0 ? 0 : wrong / static_cast<double>(scenes_)) + "\n";
+           number(scenes_ == 0 ? 0 : wrong / static_cast<double>(scenes_)) + "," +
+           std::to_string(c.centred) + "," + number(centre.percent) + "," + number(centre.low) +
+           "," + number(centre.high) + "\n";
   };
   std::string text;
   for (std::size_t m = 0; m < labels_.size(); ++m)

@@ -26,12 +26,15 @@ std::string truthOf(const CellScene& scene, const Detection& d);
 
 /** \brief Counts over all scenes, for one object or for all. */
 struct Counts {
-  std::size_t present = 0;     ///< instances in the scenes
-  std::size_t found = 0;       ///< instances that a cluster of their label lies on
-  std::size_t clusters = 0;    ///< detections of this label
-  std::size_t right = 0;       ///< with at least one cell of an object of that label, Eq. 5.9
-  std::size_t strict = 0;      ///< with most of their cells on one instance of that label
-  std::size_t doubles = 0;     ///< strict, but of an instance found before
+  std::size_t present = 0;  ///< instances in the scenes
+  std::size_t found = 0;    ///< instances that a cluster of their label lies on
+  std::size_t clusters = 0; ///< detections of this label
+  std::size_t right = 0;    ///< with at least one cell of an object of that label, Eq. 5.9
+  std::size_t strict = 0;   ///< with most of their cells on one instance of that label
+  std::size_t doubles = 0;  ///< strict, but of an instance found before
+  /** \brief Instances for which a cluster of their label has its centre within half r_mean of
+   * theirs. Of partial views the centre is not that of the object. */
+  std::size_t centred = 0;
   std::size_t cells = 0;       ///< in clusters that are right
   std::size_t right_cells = 0; ///< of these, from objects of that label, Eq. 5.10
 

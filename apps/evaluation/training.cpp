@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::size_t kTrainingSurflets = 100000; // as in [Wahl 2007, Sec. 5.5.2]
 constexpr std::size_t kBackgroundPatches = 8;
+constexpr double kEvening = 0.5; ///< edge of cells that even out the density, in those of scenes
 
 /** \brief Surflets of \p set within \p radius of one of them, drawn at random. */
 SurfletSet
@@ -25,17 +26,28 @@ patchOf(const SurfletSet& set, double radius, CounterRandom& random)
   return patch;
 }
 
+/** \brief What an object's model is trained from. */
+SurfletSet
+surfaceOf(const SceneItem& item, const TrainingOptions& o)
+{
+  if (!o.sensing)
+    return item.sample(o.for_scenes ? static_cast<std::size_t>(item.area * o.scene.density) + 1
+                                    : kTrainingSurflets,
+                       kTrainingSeed);
+  const SurfletSet seen = sensedAlone(item, *o.sensing, o.scene.posture);
+  // What many sensors see is dense: even out what is not reduced to cells later on.
+  return o.for_scenes ? seen : reduceToCells(seen, kEvening * o.leaf).cells;
+}
+
 /** \brief Models of pieces of the empty background, of the size of the largest object. */
 void
 addBackground(ModelDatabase& database, const TrainingOptions& o, HistogramModelTrainer trainer)
 {
-  SceneOptions scene = o.scene;
-  scene.seed = kTrainingSeed;
-  const SurfletSet empty = reduceToCells(emptyBackground(scene), o.leaf).cells;
+  const SurfletSet empty = reduceToCells(seenBackground(o.scene, o.sensing), o.leaf).cells;
   const double radius = database.largestDelta() / 2;
   CounterRandom random(kTrainingSeed);
   trainer.setRole(ModelRole::Background);
-  const std::size_t patches = scene.background == Background::Plane ? 1 : kBackgroundPatches;
+  const std::size_t patches = o.scene.background == Background::Plane ? 1 : kBackgroundPatches;
   for (std::size_t k = 0; k < patches; ++k)
     database.add(trainer.train("background " + std::to_string(k), patchOf(empty, radius, random)));
 }
@@ -50,10 +62,7 @@ trainedDatabase(const std::vector<SceneItem>& objects, const TrainingOptions& o)
   trainer.setNumberOfThreads(o.threads);
   ModelDatabase database;
   for (const auto& item : objects) {
-    const auto surflets =
-        item.sample(o.for_scenes ? static_cast<std::size_t>(item.area * o.scene.density) + 1
-                                 : kTrainingSurflets,
-                    kTrainingSeed);
+    const auto surflets = surfaceOf(item, o);
     database.add(o.for_scenes ? trainForScenes(trainer, item.label, surflets, o.leaf, kTrainingSeed,
                                                o.threads)
                               : trainer.train(item.label, surflets));

@@ -2,7 +2,8 @@
  * Databases of the things that scenes are made of. */
 #pragma once
 
-#include "pcl_surflet/core/scene_generator.h"
+#include "evaluation/scenes.h"
+
 #include "pcl_surflet/recognition/model_database.h"
 
 #include <vector>
@@ -10,12 +11,10 @@
 namespace pcl_surflet {
 namespace apps {
 
-/** \brief Never the seed of a scene. */
-constexpr std::uint64_t kTrainingSeed = 0x747261696eULL;
-
 /** \brief How models are made. */
 struct TrainingOptions {
   SceneOptions scene; ///< density, and what the empty background looks like
+  Sensing sensing;    ///< how objects alone and the background are seen
   int bins = 5;       ///< in each of the four dimensions
   double leaf = 0.0058;
   bool for_scenes = false;      ///< by trainForScenes(); else on 100,000 surflets of the surface

@@ -2,11 +2,10 @@
  * What a distant sensor sees of a mesh, by drawing it. */
 #pragma once
 
+#include "pcl_surflet/core/depth_buffer.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
 
-#include <array>
-#include <cstddef>
 #include <vector>
 
 namespace pcl_surflet {
@@ -26,18 +25,11 @@ public:
 
 private:
   static constexpr long kPixels = 512;
-  using Corner = std::array<double, 3>; ///< column, row, height
 
-  Corner inPixels(const Surflet& s) const;
-  void draw(const std::array<Corner, 3>& triangle);
-  static std::size_t
-  pixel(long column, long row)
-  {
-    return static_cast<std::size_t>(row * kPixels + column);
-  }
+  DepthBuffer::Corner inPixels(const Surflet& s) const;
 
   double left_ = 0, low_ = 0, size_ = 1; ///< of the left and lower edge, of a pixel
-  std::vector<double> heights_;
+  DepthBuffer heights_;
 };
 
 } // namespace apps

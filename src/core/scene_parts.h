@@ -29,6 +29,7 @@ struct PlacementItem {
   SurfletSet surflets;  ///< in the posture it will have, moved as it is placed
   Pose pose;            ///< from the item as it was to surflets
   double radius = 0;    ///< largest distance to the centroid
+  double r_mean = 0;    ///< mean distance to the centroid
   double radius_xy = 0; ///< the same, horizontally
   Vector3 centroid{0, 0, 0};
 };
@@ -39,6 +40,7 @@ void translate(PlacementItem& item, const Vector3& by);
 /** \brief Height of what carries the items at (\p x, \p y). */
 double floorHeight(const SceneOptions& options, double x, double y);
 double backgroundArea(const SceneOptions& options);
+TriangleMesh backgroundMesh(const SceneOptions& options);
 SurfletSet sampleBackground(const SceneOptions& options, std::size_t n, std::uint64_t seed);
 
 /** \brief Puts all items in their places. \throws std::invalid_argument if they do not fit */

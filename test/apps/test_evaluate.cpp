@@ -101,6 +101,38 @@ TEST(Evaluate, ClassicRemovesAllPlanesOfABox)
   }
 }
 
+TEST(Evaluate, SensedScenesAreLearnedFromTheSameSensor)
+{
+  const auto lines = overall(evaluated({"-method",       "explanation,classic_vfh",
+                                        "-treatment",    "model",
+                                        "-views",        "ring24",
+                                        "-pixels",       "320x240",
+                                        "-sensor_noise", "0.0003",
+                                        "-grazing",      "80",
+                                        "-distance",     "0.9",
+                                        "-size",         "0.6",
+                                        "-scenes",       "1",
+                                        "bottle",        "torus"}));
+  ASSERT_EQ(lines.size(), 2u);
+  for (auto line : lines) {
+    EXPECT_EQ(line["found"], "2") << line["method"];
+    EXPECT_EQ(line["centred"], "2") << line["method"];
+    EXPECT_EQ(line["false_per_scene"], "0") << line["method"];
+  }
+}
+
+TEST(Evaluate, ThingsMayBeAbsent)
+{
+  std::size_t present = 0;
+  for (auto& line : overall(evaluated({"-method", "exclusion_vfh", "-treatment", "exclude",
+                                       "-presence", "0.5", "-scenes", "6", "bottle", "torus"})))
+    present = std::stoul(line["present"]);
+  EXPECT_GT(present, 1u); // of 12; all or none is a matter of 1 in 2,000
+  EXPECT_LT(present, 12u);
+  EXPECT_TRUE(ended(evaluated({"-presence", "0.5", "-present", "1", "bottle"}), 1, {"-presence"}));
+  EXPECT_TRUE(ended(evaluated({"-views", "one", "-noise", "0.1", "bottle"}), 1, {"-noise"}));
+}
+
 TEST(Evaluate, CriticalDistanceTellsTouchingFromApart)
 {
   const auto lines = overall(evaluated({"-method", "classic_vfh", "-critical", "0.3,2.5", "-scenes",

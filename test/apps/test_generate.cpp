@@ -2,6 +2,9 @@
 #include "app_runner.h"
 
 #include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <sstream>
 
 using namespace pcl_surflet::test;
 
@@ -96,6 +99,60 @@ TEST_F(Generate, SeedsDecide)
   const std::string first = made("4");
   EXPECT_TRUE(first == made("4"));
   EXPECT_FALSE(first == made("5"));
+}
+
+TEST_F(Generate, ASensorSeesOneSide)
+{
+  const std::vector<std::string> common = {"-density",       "5000", "-pixels",       "160x120",
+                                           "-normal_radius", "0.03", "-sensor_noise", "0.0005"};
+  const auto made = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), common.begin(), common.end());
+    return run("generate", arguments);
+  };
+  ASSERT_TRUE(
+      ended(made({"-views", "two", "-out", path("s.pcd"), "-poses", path("p.csv"), "-scans",
+                  path("scans"), "-alone", path("alone"), "-empty", path("e.pcd"), "cup", "torus"}),
+            0, {"s.pcd", "2 items"}));
+  const std::string scan = readFile(path("scans/scan_01.pcd"));
+  EXPECT_EQ(headerLine(scan, "FIELDS"), "FIELDS x y z normal_x normal_y normal_z label instance");
+  EXPECT_EQ(headerLine(scan, "WIDTH"), "WIDTH 160");
+  EXPECT_EQ(headerLine(scan, "HEIGHT"), "HEIGHT 120");
+  // From the other side, 1.4 from a point 0.05 above the table, 45 degrees high.
+  const auto viewpoint = headerLine(scan, "VIEWPOINT");
+  std::istringstream numbers(viewpoint.substr(10));
+  std::vector<double> v(7);
+  for (double& number : v)
+    numbers >> number;
+  EXPECT_NEAR(v[0], -1.4 * std::sqrt(0.5), 1e-5) << viewpoint;
+  EXPECT_NEAR(v[1], 0, 1e-5);
+  EXPECT_NEAR(v[2], 0.05 + 1.4 * std::sqrt(0.5), 1e-5);
+  EXPECT_NEAR(std::hypot(v[3], v[4], std::hypot(v[5], v[6])), 1, 1e-5);
+  EXPECT_FALSE(std::filesystem::exists(path("scans/scan_02.pcd")));
+  const auto poses = parseCsv(readFile(path("p.csv")));
+  ASSERT_EQ(poses.size(), 3u);
+  EXPECT_GT(std::stoul(poses[1].back()), 50u) << "points that are seen of the cup";
+  EXPECT_NE(headerLine(readFile(path("e.pcd")), "POINTS"), "");
+  // All of it can be trained from, or read again.
+  ASSERT_TRUE(ended(run("train", {"-database", path("db.pcd"), "-pairs", "1000",
+                                  path("alone/cup.pcd"), path("alone/torus.pcd"), path("s.pcd")}),
+                    0, {"added 'cup'"}));
+}
+
+TEST_F(Generate, SensorsAreDescribedConsistently)
+{
+  const std::string out = path("s.pcd");
+  const auto refused = [&](std::vector<std::string> arguments,
+                           const std::vector<std::string>& words) {
+    arguments.insert(arguments.end(), {"-out", out, "-density", "5000", "cup"});
+    EXPECT_TRUE(ended(run("generate", arguments), 1, words));
+  };
+  refused({"-scans", path("d")}, {"-scans", "-views"});
+  refused({"-alone", path("d")}, {"-alone", "-views"});
+  refused({"-views", "one", "-noise", "0.001"}, {"-noise", "-sensor_noise"});
+  refused({"-views", "three"}, {"three", "ring24"});
+  for (const char* bad : {"640", "0x3", "axb", "640x480x3", "-1x5"})
+    refused({"-views", "one", "-pixels", bad}, {"-pixels"});
+  refused({"-views", "one", "-grazing", "91"}, {"-grazing"});
 }
 
 TEST_F(Generate, BadDataIsNamed)
