@@ -237,7 +237,8 @@ TEST(Seeds, HoldTheNeighbourhoodOfASurflet) // Eq. 5.13
   const auto n = static_cast<std::uint32_t>(ball().size());
   DissertationParameters p;
   p.seeds = 40;
-  const auto seeds = plantSeeds(w.scene, 0, range(100, 2 * n), p, w.diagnostics.models[0]);
+  ModelDiagnostics diagnostics;
+  const auto seeds = plantSeeds(w.scene, 0, range(100, 2 * n), p, diagnostics);
   ASSERT_EQ(seeds.size(), 40u);
   for (const auto& seed : seeds) {
     ASSERT_FALSE(seed.surflets.empty());
@@ -248,8 +249,8 @@ TEST(Seeds, HoldTheNeighbourhoodOfASurflet) // Eq. 5.13
     EXPECT_NEAR(double(seed.surflets.size()), 250, 60);
   }
   p.seeds = 1000;
-  EXPECT_EQ(plantSeeds(w.scene, 0, range(0, 5), p, w.diagnostics.models[0]).size(), 5u);
-  EXPECT_TRUE(plantSeeds(w.scene, 0, {}, p, w.diagnostics.models[0]).empty());
+  EXPECT_EQ(plantSeeds(w.scene, 0, range(0, 5), p, diagnostics).size(), 5u);
+  EXPECT_TRUE(plantSeeds(w.scene, 0, {}, p, diagnostics).empty());
 }
 
 TEST(Regrouping, JoinsEverySurfletWithOneOther) // Eq. 5.14
