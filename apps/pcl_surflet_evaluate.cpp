@@ -299,7 +299,7 @@ addExtensions(CommandLine& line, Options& o, std::uint64_t& steps, std::uint64_t
       "a CSV of its own: where seeds float, cells of found objects, or what runs accumulate",
       o.study, {{"paths", Study::Paths}, {"border", Study::Border}, {"runs", Study::Runs}});
   line.count("-float_steps", "N", "floating: steps of a seed, default 25", steps, 1, 10000);
-  line.real("-steepness", "X", "floating: s times r_max, default 10",
+  line.real("-steepness", "X", "floating: s times r_max, default 60",
             dissertation.floating.steepness, 1e-3, 1e6);
   line.real("-repeat_pairs", "X", "repeated: pairs for each surflet, default 4",
             dissertation.repetition.pairs_per_surflet, 1e-3, 1e6);

@@ -28,7 +28,7 @@ struct FloatingSeeds {
   bool on = false;
   unsigned steps = 25; ///< step k is r_min / k long, in [1, 10000]
   /** \brief s of Eq. 6.3, 6.4, times r_max: how sharply the two radii bound, in (0, 1e6]. */
-  double steepness = 10;
+  double steepness = 60;
   bool keep_paths = false; ///< in ModelDiagnostics::seed_paths
 };
 
