@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <ctime>
 #include <map>
 
 namespace pcl_surflet {
@@ -84,6 +85,30 @@ struct Shares {
       (inside ? middle_found : border_found) += found ? 1 : 0;
       right += found ? 1 : 0;
     }
+  }
+};
+
+/** \brief Wall-clock time, and time of processors, which other work on the machine hardly changes:
+ * the calling thread's bounds what more threads can gain. */
+struct Cost {
+  double seconds = 0, all_threads = 0, calling_thread = 0;
+
+  void
+  add(const std::function<void()>& work)
+  {
+    const double all = now(CLOCK_PROCESS_CPUTIME_ID), calling = now(CLOCK_THREAD_CPUTIME_ID);
+    seconds += secondsOf(work);
+    all_threads += now(CLOCK_PROCESS_CPUTIME_ID) - all;
+    calling_thread += now(CLOCK_THREAD_CPUTIME_ID) - calling;
+  }
+
+private:
+  static double
+  now(clockid_t clock)
+  {
+    timespec t{};
+    clock_gettime(clock, &t);
+    return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
   }
 };
 
@@ -214,29 +239,31 @@ std::string
 studyBorder(const ExtensionStudy& study)
 {
   std::vector<Shares> shares(study.methods.size());
-  std::vector<double> seconds(study.methods.size(), 0);
+  std::vector<Cost> costs(study.methods.size());
   for (std::uint64_t k = 0; k < study.scenes; ++k) {
     const CellScene scene = cellsOf(study, k);
     const auto instances = instancesOf(scene);
     for (std::size_t m = 0; m < study.methods.size(); ++m) {
       SceneInterpretation found;
-      seconds[m] += secondsOf([&] { found = study.methods[m]->find(scene.cells, study.seed + k); });
+      costs[m].add([&] { found = study.methods[m]->find(scene.cells, study.seed + k); });
       for (const auto& d : found.detections)
         if (const auto* instance = strictlyRight(scene, instances, d))
           shares[m].add(scene, *instance, d);
     }
   }
   std::string text = "method,seed,scenes,detections,cells_each,right_each,right_percent,"
-                     "middle_percent,border_percent,seconds\n";
+                     "middle_percent,border_percent,seconds,cpu_seconds,calling_thread_seconds\n";
   for (std::size_t m = 0; m < shares.size(); ++m) {
     const Shares& s = shares[m];
     char line[300];
-    std::snprintf(line, sizeof line, "%s,%llu,%llu,%zu,%.1f,%.1f,%.1f,%.1f,%.1f,%.4f\n",
+    std::snprintf(line, sizeof line, "%s,%llu,%llu,%zu,%.1f,%.1f,%.1f,%.1f,%.1f,%.4f,%.4f,%.4f\n",
                   study.names[m].c_str(), static_cast<unsigned long long>(study.seed),
                   static_cast<unsigned long long>(study.scenes), s.detections,
                   mean(double(s.cells), s.detections), mean(double(s.right), s.detections),
                   percent(s.right, s.cells), percent(s.middle_found, s.middle),
-                  percent(s.border_found, s.border), mean(seconds[m], study.scenes));
+                  percent(s.border_found, s.border), mean(costs[m].seconds, study.scenes),
+                  mean(costs[m].all_threads, study.scenes),
+                  mean(costs[m].calling_thread, study.scenes));
     text += line;
   }
   return text;
