@@ -78,9 +78,11 @@ struct Shares {
   {
     ++detections;
     cells += d.cells.size();
+    std::vector<std::uint32_t> held = d.cells;
+    std::sort(held.begin(), held.end());
     for (const auto i : instance.cells) {
       const bool inside = distanceTo(instance.centroid, scene.cells, i) <= instance.r_mean;
-      const bool found = std::binary_search(d.cells.begin(), d.cells.end(), i);
+      const bool found = std::binary_search(held.begin(), held.end(), i);
       ++(inside ? middle : border);
       (inside ? middle_found : border_found) += found ? 1 : 0;
       right += found ? 1 : 0;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <set>
@@ -78,6 +79,15 @@ TEST(Accumulation, CellsOfOverlappingDetectionsOfOneNameUnite)
   EXPECT_EQ(all[0].seeds, 4u);
   EXPECT_EQ(all[0].votes, 1);
   EXPECT_EQ(all[1].cells, range(60, 70));
+}
+
+TEST(Accumulation, TheOrderOfCellsDoesNotMatter)
+{
+  Cells backwards = range(10, 30);
+  std::reverse(backwards.begin(), backwards.end());
+  const auto all = merged({run({detection(0, backwards)}), run({detection(0, range(0, 20))})});
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_EQ(all[0].cells, range(0, 30));
 }
 
 TEST(Accumulation, WhatFewRunsFindGoes)

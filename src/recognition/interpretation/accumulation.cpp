@@ -91,6 +91,16 @@ add(const Vote& vote, double min_overlap, Hypotheses& all)
   all = std::move(others);
 }
 
+/** \brief Sets of cells are compared in their order, which not every caller keeps. */
+std::vector<SceneInterpretation>
+withAscendingCells(std::vector<SceneInterpretation> runs)
+{
+  for (auto& run : runs)
+    for (auto& d : run.detections)
+      std::sort(d.cells.begin(), d.cells.end());
+  return runs;
+}
+
 Hypotheses
 hypothesesOf(const std::vector<SceneInterpretation>& runs, double min_overlap)
 {
@@ -201,11 +211,12 @@ mergeInterpretations(const SurfletSet& cells, const std::vector<SceneInterpretat
     return runs.front();
   SceneInterpretation merged;
   merged.diagnostics = runs.front().diagnostics;
+  const auto ascending = withAscendingCells(runs);
   for (const auto& run : runs)
     merged.diagnostics.cancelled = merged.diagnostics.cancelled || run.diagnostics.cancelled;
   if (merged.diagnostics.cancelled)
     return merged;
-  Hypotheses all = hypothesesOf(runs, parameters.min_overlap);
+  Hypotheses all = hypothesesOf(ascending, parameters.min_overlap);
   for (auto& h : all)
     count(runs.size(), h);
   all = elected(std::move(all), parameters);
