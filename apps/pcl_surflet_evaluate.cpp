@@ -2,6 +2,7 @@
 
 #include "app_common.h"
 #include "evaluation/comparison.h"
+#include "evaluation/extensions.h"
 #include "scene_items.h"
 #include "sensor_options.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr const char* kProgram = "pcl_surflet_evaluate";
 
 enum class Scaling { None, Area, Models };
+enum class Study { None, Paths, Border, Runs };
 
 struct Options {
   RecogniserOptions recogniser;
@@ -25,6 +27,8 @@ struct Options {
   std::string row = "scenes";
   std::vector<double> critical; ///< distance factors
   Scaling scaling = Scaling::None;
+  Study study = Study::None;
+  AccumulationParameters accumulation;
   std::vector<double> factors = {1, 2, 5, 10};
   double presence = 1;   ///< probability that an item is present
   std::size_t items = 0; ///< that scenes choose from
@@ -165,9 +169,32 @@ evaluateModels(const Things& things, const Options& o)
   }
 }
 
+/** \brief The extensions of chapter 6. */
+void
+evaluateStudy(const Things& things, const Options& o)
+{
+  ExtensionStudy study;
+  study.names = o.methods;
+  study.methods = trained(things.objects, o);
+  study.labels = labelsOf(things.objects);
+  study.scene = [&](std::uint64_t k) {
+    return generateScene(things.objects, things.clutter, sceneOptions(o, k));
+  };
+  study.scenes = o.scenes;
+  study.seed = o.seed;
+  study.leaf = o.recogniser.leaf;
+  study.accumulation = o.accumulation;
+  const std::string csv = o.study == Study::Paths    ? studyPaths(study)
+                          : o.study == Study::Border ? studyBorder(study)
+                                                     : studyRuns(study);
+  std::fputs(csv.c_str(), stdout);
+}
+
 void
 evaluate(const Things& things, const Options& o)
 {
+  if (o.study != Study::None)
+    return evaluateStudy(things, o);
   if (o.csv)
     std::fputs(Comparison::csvHeader().c_str(), stdout);
   if (!o.critical.empty())
@@ -275,6 +302,27 @@ addSeries(CommandLine& line, Options& o, Contents& contents)
   line.text("-extra", "ITEM,...", "items for -scaling models that are in no scene", contents.extra);
 }
 
+/** \brief Chapter 6. */
+void
+addExtensions(CommandLine& line, Options& o, std::uint64_t& steps, std::uint64_t& runs)
+{
+  auto& dissertation = o.recogniser.dissertation;
+  addChoice<Study>(
+      line, "-study",
+      "a CSV of its own: where seeds float, cells of found objects, or what runs accumulate",
+      o.study, {{"paths", Study::Paths}, {"border", Study::Border}, {"runs", Study::Runs}});
+  line.count("-float_steps", "N", "floating: steps of a seed, default 25", steps, 1, 10000);
+  line.real("-steepness", "X", "floating: s times r_max, default 60",
+            dissertation.floating.steepness, 1e-3, 1e6);
+  line.real("-repeat_pairs", "X", "repeated: pairs for each surflet, default 4",
+            dissertation.repetition.pairs_per_surflet, 1e-3, 1e6);
+  line.count("-runs", "N", "-study runs: interpretations of a scene, default 8", runs, 1, 10000);
+  line.real("-min_votes", "X", "share of the runs that must find an object, default 0.5",
+            o.accumulation.min_votes, 0, 1);
+  line.real("-min_cell_share", "X", "share of them that must give it a cell, default 0",
+            o.accumulation.min_cell_share, 0, 1);
+}
+
 void
 addOutput(CommandLine& line, Options& o)
 {
@@ -347,12 +395,17 @@ run(int argc, char** argv)
   addParameters(line, o.recogniser, o.bins);
   addScenes(line, o, contents);
   addSeries(line, o, contents);
+  std::uint64_t steps = o.recogniser.dissertation.floating.steps, runs = 8;
+  addExtensions(line, o, steps, runs);
   addOutput(line, o);
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1000);
   const Things things = thingsOf(line, contents);
   settle(o, line, contents, things);
+  o.recogniser.dissertation.floating.steps = static_cast<unsigned>(steps);
+  o.recogniser.dissertation.floating.keep_paths = o.study == Study::Paths;
+  o.accumulation.runs = runs;
   evaluate(things, o);
   return kOk;
 }

@@ -201,8 +201,9 @@ private:
 const std::vector<std::string>&
 recogniserNames()
 {
-  static const std::vector<std::string> names = {"dissertation", "explanation", "classic_vfh",
-                                                 "classic_esf", "exclusion_vfh"};
+  static const std::vector<std::string> names = {"dissertation",      "floating",     "repeated",
+                                                 "floating_repeated", "explanation",  "classic_vfh",
+                                                 "classic_esf",       "exclusion_vfh"};
   return names;
 }
 
@@ -210,8 +211,16 @@ std::unique_ptr<Recogniser>
 recogniser(const std::string& name, const std::vector<SceneItem>& objects,
            const RecogniserOptions& options)
 {
-  if (name == "dissertation" || name == "explanation")
-    return std::make_unique<HistogramRecogniser>(objects, options, name == "explanation");
+  if (name == "explanation")
+    return std::make_unique<HistogramRecogniser>(objects, options, true);
+  const bool floating = name.rfind("floating", 0) == 0;
+  const bool repeated = name == "repeated" || name == "floating_repeated";
+  if (floating || repeated || name == "dissertation") {
+    RecogniserOptions extended = options;
+    extended.dissertation.floating.on = floating;
+    extended.dissertation.repetition.on = repeated;
+    return std::make_unique<HistogramRecogniser>(objects, extended, false);
+  }
   return std::make_unique<ClassicRecogniser>(
       objects, options, name == "classic_esf" ? Descriptor::Esf : Descriptor::Vfh,
       name == "exclusion_vfh");

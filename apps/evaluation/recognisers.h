@@ -5,7 +5,7 @@
 
 #include "evaluation/training.h"
 
-#include "pcl_surflet/recognition/scene_interpretation.h"
+#include "pcl_surflet/recognition/scene_accumulation.h"
 
 #include <memory>
 #include <string>
@@ -48,12 +48,14 @@ const std::vector<std::string>& recogniserNames();
  *
  * - dissertation, explanation: the interpretations of the library. Excluded background: cells near
  *   those of an empty scene, sensed another time, are left out first.
- *
- * Where a sensor looks, all of it is what this sensor sees: objects alone from 24 places for
- * models, the empty scene from those of the scenes, examples on a background likewise.
+ * - floating, repeated, floating_repeated: dissertation with floating seeds, with repetitive
+ *   clustering, with both.
  * - classic_vfh, classic_esf: TabletopClassic, whatever the treatment. It removes as many planes as
  *   the background has and is trained on each object standing alone on that background.
- * - exclusion_vfh: the same, but what is near the empty scene is left out in place of planes. */
+ * - exclusion_vfh: the same, but what is near the empty scene is left out in place of planes.
+ *
+ * Where a sensor looks, all of it is what this sensor sees: objects alone from 24 places for
+ * models, the empty scene from those of the scenes, examples on a background likewise. */
 std::unique_ptr<Recogniser> recogniser(const std::string& name,
                                        const std::vector<SceneItem>& objects,
                                        const RecogniserOptions& options);

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "pcl_surflet/conversions.h"
-#include "pcl_surflet/recognition/scene_interpretation.h"
+#include "pcl_surflet/recognition/scene_accumulation.h"
 
 #include <pcl/filters/filter_indices.h>
 #include <pcl/point_types.h>
@@ -60,9 +60,10 @@ struct SceneDiagnostics : InterpretationDiagnostics {
   std::size_t background_points = 0; ///< left out by BackgroundTreatment::Exclude
   std::size_t planes = 0;            ///< of them: planes found
   std::size_t cells = 0;             ///< what was interpreted
-  double leaf = 0;                   ///< edge of a cell, in the cloud's unit
-  double extent = 0;                 ///< diagonal of the cells' bounding box
-  double largest_model = 0;          ///< delta_max of the largest object of the database
+  std::size_t runs = 0;     ///< interpretations that were merged; the counts are the first's
+  double leaf = 0;          ///< edge of a cell, in the cloud's unit
+  double extent = 0;        ///< diagonal of the cells' bounding box
+  double largest_model = 0; ///< delta_max of the largest object of the database
 };
 
 /** \brief What BackgroundTreatment::Exclude takes for background: points near it whose normals
@@ -89,6 +90,8 @@ struct InterpreterRequest {
   ExplanationParameters parameters;
   double leaf = 0;
   std::size_t max_detections = 0;
+  AccumulationParameters accumulation;
+  double seconds = 0; ///< time budget, 0: none
   ExclusionOptions exclusion;
   std::vector<BackgroundPlane> planes;
 };
@@ -133,7 +136,10 @@ PCL_SURFLET_API SurfletSet backgroundCells(const SurfletSet& background,
  * eleven being the wine glass. With fewer unknown things than that it is too cautious.
  *
  * Method::Dissertation, which has no fit: 1 / (1 + exp(-10 score)), the posterior against the best
- * rival were ten features independent, times n / (n + min_cluster) for n cells. Not calibrated. */
+ * rival were ten features independent, times n / (n + min_cluster) for n cells. Not calibrated.
+ *
+ * Of an accumulated detection: the same of its mean fit and score, times the share of the runs that
+ * found it. */
 PCL_SURFLET_API double confidenceOf(const Detection& detection, std::size_t min_cluster);
 
 /** \brief \p cells relative to those that a surface of \p area occupies, 1.27 area / leaf^2 on
@@ -274,6 +280,17 @@ public:
   setMaximumDetections(std::size_t detections)
   {
     request_.max_detections = detections;
+  }
+  /** \brief Interprets several times and votes [Wahl 2007, Sec. 6.2]. By default once.
+   *
+   * \param parameters runs is the most; the same parameters and seed give the same result
+   * \param seconds time budget, 0: none. No further run begins that would, taking as long as those
+   * before, end later; the first always runs. How many there were is in getDiagnostics(). */
+  void
+  setAccumulation(const AccumulationParameters& parameters, double seconds = 0)
+  {
+    request_.accumulation = parameters;
+    request_.seconds = seconds;
   }
   /** \brief Told the share done, in [0, 1]; returns false to cancel. See
    * DissertationParameters::progress. */

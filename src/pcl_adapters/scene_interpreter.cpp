@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -179,14 +180,49 @@ describe(const SceneInterpretation& result, const SizeRange& sizes, SceneDiagnos
 }
 
 SceneInterpretation
+interpretOnce(const SurfletSet& cells, const ModelDatabase& database, Method method,
+              const ExplanationParameters& parameters)
+{
+  return method == Method::Dissertation ? interpretByDissertation(cells, database, parameters.steps)
+                                        : interpretByExplanation(cells, database, parameters);
+}
+
+/** \brief Is there time for one more run like those before? */
+std::function<bool(std::size_t)>
+withinBudget(double seconds)
+{
+  if (!(seconds >= 0) || !std::isfinite(seconds))
+    throw std::invalid_argument("pcl_surflet: the time budget must be positive and finite, or 0");
+  if (seconds == 0)
+    return {};
+  const auto begin = std::chrono::steady_clock::now();
+  return [=](std::size_t runs) {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begin;
+    return spent.count() * static_cast<double>(runs + 1) <= seconds * static_cast<double>(runs);
+  };
+}
+
+SceneInterpretation
 interpretCells(const SurfletSet& cells, const ModelDatabase& database,
-               const detail::InterpreterRequest& request, double leaf)
+               const detail::InterpreterRequest& request, double leaf, std::size_t& runs)
 {
   ExplanationParameters parameters = request.parameters;
   parameters.leaf = leaf;
-  return request.method == Method::Dissertation
-             ? interpretByDissertation(cells, database, parameters.steps)
-             : interpretByExplanation(cells, database, parameters);
+  std::size_t run = 0;
+  const auto most = static_cast<double>(request.accumulation.runs);
+  if (const auto progress = request.parameters.steps.progress)
+    parameters.steps.progress = [&run, progress, most](double share) {
+      return progress((static_cast<double>(run) + share) / most);
+    };
+  return accumulateInterpretations(
+      cells,
+      [&](std::uint64_t seed) {
+        parameters.steps.seed = seed;
+        auto found = interpretOnce(cells, database, request.method, parameters);
+        ++run;
+        return found;
+      },
+      parameters.steps.seed, request.accumulation, withinBudget(request.seconds), &runs);
 }
 
 } // namespace
@@ -205,7 +241,7 @@ detail::leafOf(double leaf, const ModelDatabase& database)
 double
 detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
 {
-  const auto logistic = [](double x) { return 1 / (1 + std::exp(-x)); };
+  const auto logistic = [&](double x) { return detection.votes / (1 + std::exp(-x)); };
   const auto n = static_cast<double>(detection.cells.size());
   if (n == 0)
     return 0;
@@ -240,7 +276,7 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
   diagnostics.largest_model = sizes.largest;
   // Also an absurd scene is interpreted, as none: parameters and database are checked there.
   auto result = interpretCells(muchTooSmall(diagnostics, sizes) ? SurfletSet() : reduction.cells,
-                               database, request, leaf);
+                               database, request, leaf, diagnostics.runs);
   describe(result, sizes, diagnostics);
   keepLargest(request.max_detections, result.detections);
   std::vector<SceneDetection> detections(result.detections.size());

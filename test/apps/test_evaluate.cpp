@@ -182,3 +182,27 @@ TEST(Evaluate, WhatDoesNotFitIsSaid)
 {
   EXPECT_TRUE(ended(run("evaluate", {"-size", "0.05", "bottle"}), 2, {"do not fit"}));
 }
+
+TEST(Evaluate, StudiesOfTheExtensions)
+{
+  const auto study = [](const std::string& name, const std::string& methods) {
+    const AppRun r = evaluated({"-study", name, "-method", methods, "-treatment", "exclude",
+                                "-scenes", "1", "-runs", "3", "bottle", "torus"});
+    EXPECT_TRUE(ended(r, 0, {}));
+    return linesOf(r.out);
+  };
+  auto border = study("border", "dissertation,repeated");
+  ASSERT_EQ(border.size(), 2u);
+  EXPECT_EQ(border[1]["method"], "repeated");
+  EXPECT_GT(std::stod(border[1]["cells_each"]), std::stod(border[0]["cells_each"]));
+  for (auto line : border)
+    EXPECT_LE(std::stod(line["border_percent"]), 100);
+
+  auto runs = study("runs", "dissertation");
+  ASSERT_EQ(runs.size(), 3u);
+  EXPECT_GT(std::stod(runs[2]["seconds"]), std::stod(runs[0]["seconds"]));
+
+  auto paths = study("paths", "floating");
+  ASSERT_FALSE(paths.empty());
+  EXPECT_EQ(paths[0]["step"], "0");
+}

@@ -560,3 +560,44 @@ TEST(SceneInterpreter, TheBackgroundNeedsNormals)
   EXPECT_EQ(interpreter.getDiagnostics().status, SceneStatus::NoNormals);
   EXPECT_NE(interpreter.getDiagnostics().reason.find("background"), std::string::npos);
 }
+
+TEST(SceneInterpreter, AccumulatesRunsWithinItsBudgets)
+{
+  auto interpreter = ready();
+  const auto once = interpreter.interpret();
+  EXPECT_EQ(interpreter.getDiagnostics().runs, 1u);
+  AccumulationParameters p;
+  p.runs = 3;
+  std::vector<double> shares;
+  interpreter.setProgressCallback([&](double share) {
+    shares.push_back(share);
+    return true;
+  });
+  interpreter.setAccumulation(p);
+  const auto often = interpreter.interpret();
+  EXPECT_EQ(interpreter.getDiagnostics().runs, 3u);
+  expectBoth(often, scene());
+  for (const auto& d : often) {
+    const auto first = std::find_if(once.begin(), once.end(),
+                                    [&](const auto& other) { return other.label == d.label; });
+    ASSERT_NE(first, once.end());
+    EXPECT_TRUE(std::includes(d.indices.begin(), d.indices.end(), first->indices.begin(),
+                              first->indices.end()))
+        << "no point is lost";
+    EXPECT_EQ(d.votes, 1);
+  }
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  EXPECT_EQ(shares.back(), 1);
+
+  interpreter.setAccumulation(p, 1e-9); // the first run always goes
+  EXPECT_EQ(interpreter.interpret().size(), once.size());
+  EXPECT_EQ(interpreter.getDiagnostics().runs, 1u);
+  interpreter.setAccumulation(p, 3600);
+  interpreter.interpret();
+  EXPECT_EQ(interpreter.getDiagnostics().runs, 3u);
+
+  const Quiet quiet;
+  interpreter.setAccumulation(p, -1);
+  EXPECT_TRUE(interpreter.interpret().empty());
+  EXPECT_EQ(interpreter.getDiagnostics().status, SceneStatus::WrongParameter);
+}

@@ -148,7 +148,8 @@ TEST(Dissertation, ExclusionLeavesWhatIsNotInTheEmptyScene)
   const auto cells = reduced(sceneOf(Background::Plane).surflets);
   const auto away = cellsAwayFrom(cells, reduced(emptyBackground(options)), kLeaf);
   EXPECT_LT(away.size(), cells.size());
-  for (const auto i : away) // what looks up is above the table, what stands on it may look elsewhere
+  for (const auto i :
+       away) // what looks up is above the table, what stands on it may look elsewhere
     EXPECT_TRUE(cells.z[i] > 0.003 || cells.nz[i] < 0.75) << cells.z[i] << " " << cells.nz[i];
   const auto found = interpretByDissertation(cells.subset(away), models());
   EXPECT_FALSE(found.detections.empty());
@@ -200,6 +201,36 @@ TEST(Dissertation, ThreadsDoNotMatter)
   EXPECT_FALSE(sameDetections(one, interpretByDissertation(cells, models(), p)));
 }
 
+TEST(Dissertation, ExtensionsAddPointsAndThreadsDoNotMatter)
+{
+  const auto cells = reduced(sceneOf(Background::None).surflets);
+  const auto cellsFound = [&](bool floating, bool repeated, unsigned threads = 1) {
+    DissertationParameters p;
+    p.threads = threads;
+    p.floating.on = floating;
+    p.repetition.on = repeated;
+    return interpretByDissertation(cells, models(), p);
+  };
+  const auto count = [](const SceneInterpretation& found) {
+    std::size_t n = 0;
+    for (const auto& d : found.detections)
+      n += d.cells.size();
+    return n;
+  };
+  const auto plain = cellsFound(false, false), repeated = cellsFound(false, true);
+  const auto both = cellsFound(true, true);
+  ASSERT_EQ(repeated.detections.size(), plain.detections.size()) << "names stay as they are";
+  for (std::size_t i = 0; i < plain.detections.size(); ++i)
+    EXPECT_EQ(repeated.detections[i].label, plain.detections[i].label);
+  std::size_t regained = 0;
+  for (const auto& m : repeated.diagnostics.models)
+    regained += m.regained;
+  EXPECT_GT(regained, 0u);
+  EXPECT_EQ(count(repeated), count(plain) + regained);
+  EXPECT_FALSE(sameDetections(both, repeated));
+  EXPECT_TRUE(sameDetections(both, cellsFound(true, true, 3)));
+}
+
 TEST(Dissertation, MisuseIsRefused)
 {
   const auto cells = reduced(sceneOf(Background::None).surflets);
@@ -221,4 +252,7 @@ TEST(Dissertation, MisuseIsRefused)
   refused([](auto& b) { b.lambda_o = 1; });
   refused([](auto& b) { b.check_regroupings = 0; });
   refused([](auto& b) { b.lambda_c = -0.1; });
+  refused([](auto& b) { b.floating.steps = 0; });
+  refused([](auto& b) { b.floating.steepness = NAN; });
+  refused([](auto& b) { b.repetition.pairs_per_surflet = 0; });
 }

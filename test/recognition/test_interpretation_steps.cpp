@@ -128,7 +128,7 @@ TEST(Seeds, HoldWhatIsWithinTheLargestRadiusOfASurflet)
   World w(rod());
   DissertationParameters p;
   p.seeds = 20;
-  const auto seeds = plantSeeds(w.scene, 1, range(0, 1000), p);
+  const auto seeds = plantSeeds(w.scene, 1, range(0, 1000), p, w.diagnostics.models[1]);
   ASSERT_EQ(seeds.size(), 20u);
   const double r_max = w.models.all[1].model->r_max;
   const auto neighbours = [&](std::uint32_t c) {
@@ -237,7 +237,8 @@ TEST(Seeds, HoldTheNeighbourhoodOfASurflet) // Eq. 5.13
   const auto n = static_cast<std::uint32_t>(ball().size());
   DissertationParameters p;
   p.seeds = 40;
-  const auto seeds = plantSeeds(w.scene, 0, range(100, 2 * n), p);
+  ModelDiagnostics diagnostics;
+  const auto seeds = plantSeeds(w.scene, 0, range(100, 2 * n), p, diagnostics);
   ASSERT_EQ(seeds.size(), 40u);
   for (const auto& seed : seeds) {
     ASSERT_FALSE(seed.surflets.empty());
@@ -248,8 +249,8 @@ TEST(Seeds, HoldTheNeighbourhoodOfASurflet) // Eq. 5.13
     EXPECT_NEAR(double(seed.surflets.size()), 250, 60);
   }
   p.seeds = 1000;
-  EXPECT_EQ(plantSeeds(w.scene, 0, range(0, 5), p).size(), 5u);
-  EXPECT_TRUE(plantSeeds(w.scene, 0, {}, p).empty());
+  EXPECT_EQ(plantSeeds(w.scene, 0, range(0, 5), p, diagnostics).size(), 5u);
+  EXPECT_TRUE(plantSeeds(w.scene, 0, {}, p, diagnostics).empty());
 }
 
 TEST(Regrouping, JoinsEverySurfletWithOneOther) // Eq. 5.14

@@ -20,6 +20,27 @@ enum class BackgroundTreatment {
   Model    ///< strategy B: the database's background models identify it, and it is ignored
 };
 
+/** \brief Cluster seeds that move before they are used [Wahl 2007, Sec. 6.1.1]. A seed's centre
+ * begins on a surface, and the ball of r_max about it holds the whole object only if it lies in its
+ * middle; so it climbs to where most selected surflets are between r_min and r_max of it. Seeds of
+ * models whose r_min is 0 stay. */
+struct FloatingSeeds {
+  bool on = false;
+  unsigned steps = 25; ///< step k is r_min / k long, in [1, 10000]
+  /** \brief s of Eq. 6.3, 6.4, times r_max: how sharply the two radii bound, in (0, 1e6]. */
+  double steepness = 60;
+  bool keep_paths = false; ///< in ModelDiagnostics::seed_paths
+};
+
+/** \brief Repetitive clustering [Wahl 2007, Sec. 6.1.3], after step 7: new pairs are drawn within
+ * r_max of each detection's centroid, those that suit its model are refined, and what is left joins
+ * the detection. It regains the border of objects; names stay as they are. */
+struct Repetition {
+  bool on = false;
+  /** \brief Pairs drawn for each surflet within r_max, > 0 and at most 1e6. */
+  double pairs_per_surflet = 4;
+};
+
 /** \brief Constants of the seven steps. Those marked (*) the dissertation leaves open. */
 struct DissertationParameters {
   BackgroundTreatment background = BackgroundTreatment::Ignore;
@@ -45,6 +66,9 @@ struct DissertationParameters {
   /** \brief Step 6 (*): smallest size relative to the model's largest cluster, in [0, 1]. Of 0.3,
    * 0.5 and 0.8, 0.3 finds most objects and names clusters as well as the others. */
   double lambda_c = 0.3;
+
+  FloatingSeeds floating; ///< step 2
+  Repetition repetition;  ///< after step 7
 
   std::uint64_t seed = 1;
   unsigned threads = 0; ///< 0: all; the result does not depend on it
@@ -81,6 +105,9 @@ struct ModelDiagnostics {
   std::size_t died_small = 0;        ///< step 6: below the minimum
   std::size_t died_relative = 0;     ///< step 6: too small beside the model's largest
   std::size_t merged = 0;            ///< step 7: joined with another cluster of the model
+  std::size_t regained = 0;          ///< repetition: surflets that joined the detections
+  /** \brief Step 2: where each seed's centre was before and after every step that it moved. */
+  std::vector<std::vector<std::array<double, 3>>> seed_paths;
   ///@}
   /** \brief Step 7: lost a competition. Explanations: others explain their cells better. */
   std::size_t lost = 0;
@@ -107,7 +134,8 @@ struct Detection {
    * other model, on the regrouped surflets; at least 0 if nothing was merged in step 7. */
   double score = 0;
   std::size_t seeds = 0; ///< merged cluster seeds, n_C; 0 by explanation
-  double fit = 0; ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
+  double fit = 0;   ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
+  double votes = 1; ///< share of the runs that found it, in (0, 1]; see AccumulationParameters
 };
 
 struct SceneInterpretation {

@@ -1,3 +1,4 @@
+#include "floating_seeds.h"
 #include "steps.h"
 
 #include "pcl_surflet/core/counter_random.h"
@@ -34,6 +35,35 @@ ascending(const std::vector<PointIndex>& found)
   Indices out(found.begin(), found.end());
   std::sort(out.begin(), out.end());
   return out;
+}
+
+Position
+rounded(const Place& place)
+{
+  return {static_cast<float>(place[0]), static_cast<float>(place[1]), static_cast<float>(place[2])};
+}
+
+/** \brief Where the centre of a seed of \p model goes among the surflets of \p octree. */
+std::vector<Place>
+pathOfSeed(const HistogramModel& model, const LinearOctree& octree, const Position& start,
+           const FloatingSeeds& parameters)
+{
+  if (!(model.r_min < model.r_max)) // a sphere: all distances from its middle are alike
+    return {{start[0], start[1], start[2]}};
+  const SeedEnergy energy(model.r_min, model.r_max, parameters.steepness / model.r_max);
+  std::vector<PlaceRange> ranges;
+  std::vector<Place> near;
+  const auto about = [&](const Place& q) -> const std::vector<Place>& {
+    octree.regionRanges(rounded(q), energy.reach(), ranges);
+    near.clear();
+    for (const auto& r : ranges)
+      for (std::uint32_t at = r.begin; at < r.end; ++at) {
+        const Position p = octree.positionAt(at);
+        near.push_back({p[0], p[1], p[2]});
+      }
+    return near;
+  };
+  return floatSeed(energy, about, {start[0], start[1], start[2]}, parameters.steps);
 }
 
 /** \brief Mean of \p value (angular bin, squared distance) over the features; -inf without any. */
@@ -110,7 +140,7 @@ meanLogDensity(const Regrouping& groups, const SceneModel& model)
 
 ClustersOfModel
 plantSeeds(const SceneData& scene, std::size_t model, const Indices& selected,
-           const DissertationParameters& parameters)
+           const DissertationParameters& parameters, ModelDiagnostics& diagnostics)
 {
   ClustersOfModel seeds;
   const std::vector<PointIndex> subset(selected.begin(), selected.end());
@@ -118,10 +148,17 @@ plantSeeds(const SceneData& scene, std::size_t model, const Indices& selected,
   const auto& s = scene.cells;
   octree.build({s.x.data(), s.y.data(), s.z.data(), 1, s.size()}, &subset);
   const CounterRandom random(parameters.seed, kSeedStream + model);
+  const HistogramModel& m = *scene.models.all[model].model;
   std::vector<PointIndex> found;
   for (const auto c : randomSample(selected, parameters.seeds, random)) {
-    octree.regionSearch({s.x[c], s.y[c], s.z[c]}, scene.models.all[model].model->r_max, found,
-                        nullptr); // Eq. 5.13
+    Position centre = {s.x[c], s.y[c], s.z[c]};
+    if (parameters.floating.on) {
+      auto path = pathOfSeed(m, octree, centre, parameters.floating);
+      centre = rounded(path.back());
+      if (parameters.floating.keep_paths)
+        diagnostics.seed_paths.push_back(std::move(path));
+    }
+    octree.regionSearch(centre, m.r_max, found, nullptr); // Eq. 5.13
     seeds.emplace_back();
     seeds.back().surflets = ascending(found);
   }

@@ -93,6 +93,8 @@ interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
   if (!progress.goesOn(kClustered))
     return result;
   compete(scene, clusters, diagnostics); // step 7
+  if (parameters.repetition.on)
+    repeatClustering(scene, parameters, clusters, diagnostics);
   if (!progress.goesOn(1))
     return result;
   result.detections = detectionsOf(scene, clusters);

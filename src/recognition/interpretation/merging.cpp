@@ -5,7 +5,6 @@
 
 namespace pcl_surflet {
 namespace interpretation {
-namespace {
 
 Indices
 common(const Indices& a, const Indices& b)
@@ -22,8 +21,6 @@ united(const Indices& a, const Indices& b)
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
   return out;
 }
-
-} // namespace
 
 ClustersOfModel
 mergeSeeds(ClustersOfModel seeds, double lambda_o, std::size_t& lone)

@@ -32,6 +32,12 @@ checkParameters(const DissertationParameters& p)
   require(p.lambda_o >= 0 && p.lambda_o < 1, "lambda_o must be in [0, 1)");
   require(p.check_regroupings > 0, "check_regroupings must be positive");
   require(p.lambda_c >= 0 && p.lambda_c <= 1, "lambda_c must be in [0, 1]");
+  require(p.floating.steps > 0 && p.floating.steps <= 10000,
+          "floating.steps must be in [1, 10000]");
+  require(p.floating.steepness > 0 && p.floating.steepness <= 1e6,
+          "floating.steepness must be in (0, 1e6]");
+  require(p.repetition.pairs_per_surflet > 0 && p.repetition.pairs_per_surflet <= 1e6,
+          "repetition.pairs_per_surflet must be in (0, 1e6]");
 }
 
 void
@@ -58,7 +64,7 @@ ClustersOfModel
 proposeClusters(const SceneData& scene, std::size_t model, const Indices& selected,
                 const DissertationParameters& parameters, ModelDiagnostics& d)
 {
-  ClustersOfModel seeds = plantSeeds(scene, model, selected, parameters); // step 2
+  ClustersOfModel seeds = plantSeeds(scene, model, selected, parameters, d); // step 2
   d.seeds = seeds.size();
   const std::uint64_t stream = model * kModelStride;
   for (std::size_t j = 0; j < seeds.size(); ++j) { // step 3

@@ -19,6 +19,12 @@ constexpr std::uint64_t kModelStride = std::uint64_t{1} << 24;
 
 using Indices = std::vector<std::uint32_t>; ///< ascending, each once
 
+/** \name Of ascending lists */
+///@{
+Indices common(const Indices& a, const Indices& b);
+Indices united(const Indices& a, const Indices& b);
+///@}
+
 /** \brief A scene ready for the steps. */
 struct SceneData {
   const SurfletSet& cells;
@@ -57,9 +63,9 @@ std::vector<Indices> preselect(const SceneData& scene, const DissertationParamet
                                InterpretationDiagnostics& diagnostics);
 
 /** \brief Step 2, cluster seeds: neighbourhoods of radius r_max about random surflets of the
- * selection [Wahl 2007, Eq. 5.12, 5.13]. */
+ * selection [Wahl 2007, Eq. 5.12, 5.13], or about where these float to [Eq. 6.13]. */
 ClustersOfModel plantSeeds(const SceneData& scene, std::size_t model, const Indices& selected,
-                           const DissertationParameters& parameters);
+                           const DissertationParameters& parameters, ModelDiagnostics& diagnostics);
 
 /** \brief Step 3, refinement: regroups and erases crosstalk until a regrouping shows none; the seed
  * is empty if nothing is left [Wahl 2007, Eq. 5.14, 5.15]. Sets the likelihood. */
@@ -83,6 +89,12 @@ void dropSmallClusters(const DissertationParameters& parameters, ClustersOfModel
  * [Wahl 2007, Eq. 5.18-5.21]. \p clusters has one entry a model. */
 void compete(const SceneData& scene, std::vector<ClustersOfModel>& clusters,
              InterpretationDiagnostics& diagnostics);
+
+/** \brief Repetitive clustering [Wahl 2007, Sec. 6.1.3]: what new pairs about the centroid of each
+ * cluster tell joins it. \p diagnostics hold the thresholds of step 1. */
+void repeatClustering(const SceneData& scene, const DissertationParameters& parameters,
+                      std::vector<ClustersOfModel>& clusters,
+                      InterpretationDiagnostics& diagnostics);
 
 /** \name What both methods share
  * \throws std::invalid_argument or DatabaseError naming what is wrong */

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <limits>
 
 namespace pcl_surflet {
@@ -67,10 +66,7 @@ nearestCollision(const SceneData& scene, const std::vector<Competitor>& all, boo
 void
 join(const SceneData& scene, Competitor& a, const Competitor& b)
 {
-  Indices all;
-  std::set_union(a.cluster.surflets.begin(), a.cluster.surflets.end(), b.cluster.surflets.begin(),
-                 b.cluster.surflets.end(), std::back_inserter(all));
-  a.cluster.surflets = std::move(all);
+  a.cluster.surflets = united(a.cluster.surflets, b.cluster.surflets);
   a.cluster.seeds += b.cluster.seeds;
   a.cluster.likelihood = std::max(a.cluster.likelihood, b.cluster.likelihood);
   a.cluster.margin = std::max(a.cluster.margin, b.cluster.margin);
