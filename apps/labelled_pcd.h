@@ -2,7 +2,7 @@
  * Labelled oriented points as PCD files: what scenes are kept in. */
 #pragma once
 
-#include "pcl_surflet/core/surflet_set.h"
+#include "pcl_surflet/sensed_scene.h"
 
 #include <cstdint>
 #include <string>
@@ -20,6 +20,10 @@ struct PointLabels {
 /** \brief Binary PCD with x y z normal_x normal_y normal_z and, unless null, label and instance.
  * \p labels are as many as \p set. */
 std::string asPcd(const SurfletSet& set, const PointLabels* labels);
+
+/** \brief Organised binary PCD with the fields above, in the sensor's frame; VIEWPOINT is the
+ * sensor's pose in the scene. NaN where nothing returned. */
+std::string asPcd(const OrientedScan& scan);
 
 } // namespace apps
 } // namespace pcl_surflet

@@ -3,8 +3,12 @@
 #include "app_common.h"
 #include "labelled_pcd.h"
 #include "scene_items.h"
+#include "sensor_options.h"
 
-#include "pcl_surflet/core/scene_generator.h"
+#include "pcl_surflet/core/counter_random.h"
+
+#include <cstdio>
+#include <filesystem>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -14,8 +18,18 @@ namespace {
 constexpr const char* kProgram = "pcl_surflet_generate";
 
 struct Outputs {
-  std::string scene, poses, empty, models;
+  std::string scene, poses, empty, models, scans, alone;
 };
+
+/** \brief What is to be made, and of what. */
+struct Job {
+  SceneOptions scene;
+  SceneSensing sensing;
+  std::vector<SceneItem> objects, clutter;
+  Outputs out;
+};
+
+constexpr std::uint64_t kEmptyStream = 0x656d7074ULL, kAloneStream = 0x616c6f6eULL;
 
 std::string
 asPoses(const Scene& scene)
@@ -38,17 +52,54 @@ asPoses(const Scene& scene)
   return text;
 }
 
-int
-generate(int argc, char** argv)
+std::string
+inDirectory(const std::string& directory, const std::string& name)
 {
-  SceneOptions o;
-  Outputs out;
-  std::string clutter;
-  std::uint64_t present = 0, unknown = 0;
-  CommandLine line(kProgram, "ITEM...",
-                   "Makes a labelled scene of objects on a background. ITEM is the name of a shape "
-                   "(see pcl_surflet_generate_shape)\nor FILE[:DIAMETER[:UP]], a mesh, its "
-                   "diameter in the scene and which of its axes (x, y, z) points up.");
+  std::error_code failure; // writeFile() will say it better
+  std::filesystem::create_directories(directory, failure);
+  return (std::filesystem::path(directory) / name).string();
+}
+
+/** \brief Looks at the scene in place of taking complete surfaces. */
+Scene
+seen(const Scene& complete, const Job& job)
+{
+  const auto scans = senseViews(bodiesOf(complete, job.objects, job.clutter, job.scene),
+                                job.sensing, job.scene.seed);
+  if (!job.out.scans.empty())
+    for (std::size_t k = 0; k < scans.size(); ++k) {
+      char name[32];
+      std::snprintf(name, sizeof(name), "scan_%02zu.pcd", k);
+      writeFile(inDirectory(job.out.scans, name), asPcd(scans[k]));
+    }
+  return sensedScene(complete, scans);
+}
+
+void
+writeBackground(const Job& job, bool sensed)
+{
+  const SurfletSet empty = sensed
+                               ? sensedSurflets(senseViews(backgroundBodies(job.scene), job.sensing,
+                                                           mix64(job.scene.seed ^ kEmptyStream)))
+                               : emptyBackground(job.scene);
+  writeFile(job.out.empty, asPcd(empty, nullptr));
+}
+
+/** \brief Every object by itself, seen from all sides but below. */
+void
+writeAlone(const Job& job)
+{
+  SceneSensing sensing = job.sensing;
+  if (sensing.views.views != ViewSet::All24)
+    sensing.views.views = ViewSet::Ring24;
+  for (const auto& item : job.objects)
+    writeFile(inDirectory(job.out.alone, item.label + ".pcd"),
+              asPcd(senseAlone(item, sensing, mix64(job.scene.seed ^ kAloneStream)), nullptr));
+}
+
+void
+addOutputs(CommandLine& line, Outputs& out)
+{
   line.text("-out", "SCENE.pcd", "labelled scene: 0 background, i the i-th ITEM, then clutter",
             out.scene);
   line.text("-poses", "POSES.csv", "pose (item to scene), centroid and points of what is there",
@@ -56,6 +107,58 @@ generate(int argc, char** argv)
   line.text("-empty", "EMPTY.pcd", "the same background without objects", out.empty);
   line.text("-models", "DIR", "every ITEM by itself as DIR/NAME.off, upright, to train models from",
             out.models);
+  line.text("-scans", "DIR",
+            "with -views: each view as an organised cloud DIR/scan_NN.pcd in its sensor's frame; "
+            "VIEWPOINT is the sensor's pose",
+            out.scans);
+  line.text("-alone", "DIR",
+            "with -views: what the sensor sees of every ITEM by itself, upright, from 24 places "
+            "(of the ring, or all24), as DIR/NAME.pcd",
+            out.alone);
+}
+
+void
+write(const Job& job, bool sensed)
+{
+  const Outputs& out = job.out;
+  const Scene complete = generateScene(job.objects, job.clutter, job.scene);
+  const Scene scene = sensed ? seen(complete, job) : complete;
+  const PointLabels labels{scene.labels, scene.instances};
+  writeFile(out.scene, asPcd(scene.surflets, &labels));
+  if (!out.poses.empty())
+    writeFile(out.poses, asPoses(scene));
+  if (!out.empty.empty())
+    writeBackground(job, sensed);
+  if (!out.alone.empty())
+    writeAlone(job);
+  note("wrote '" + out.scene + "': " + std::to_string(scene.surflets.size()) + " points, " +
+       std::to_string(scene.items.size()) + " items");
+}
+
+/** \brief Options that say something about sensors only, or about complete surfaces only. */
+void
+requireConsistent(const CommandLine& line)
+{
+  const bool sensed = line.given("-views");
+  for (const char* option : {"-scans", "-alone"})
+    if (line.given(option) && !sensed)
+      throw UsageError(std::string("option ") + option + ": give -views, too");
+  if (line.given("-noise") && sensed)
+    throw UsageError("option -noise: is for complete surfaces; with -views give -sensor_noise");
+}
+
+int
+generate(int argc, char** argv)
+{
+  Job job;
+  SceneOptions& o = job.scene;
+  std::string clutter;
+  std::uint64_t present = 0, unknown = 0, threads = 0;
+  CommandLine line(kProgram, "ITEM...",
+                   "Makes a labelled scene of objects on a background. ITEM is the name of a shape "
+                   "(see pcl_surflet_generate_shape)\nor FILE[:DIAMETER[:UP]], a mesh, its "
+                   "diameter in the scene and which of its axes (x, y, z) points up.");
+  addOutputs(line, job.out);
   line.count("-present", "N", "items present, chosen at random, default all", present, 1, 1000000);
   line.text("-clutter", "ITEM,...", "things unknown to the database", clutter);
   line.count("-unknown", "N", "things present of the clutter, default all", unknown, 0, 1000000);
@@ -63,30 +166,27 @@ generate(int argc, char** argv)
   line.real("-density", "D", "points per squared unit, default 470000", o.density, 1e-9, 1e12);
   line.real("-noise", "S", "moves points along their normals by up to S, default 0", o.noise, 0,
             1e6);
+  addSensor(line, job.sensing);
   addSeed(line, o.seed);
+  addThreads(line, threads);
   if (!line.parse(argc, argv))
     return kOk;
   line.require("-out");
   line.requireFiles(1, 1000);
-  const auto objects = itemsOf(line.files());
-  const auto others = line.given("-clutter") ? itemsOf(parts(clutter, ',')) : itemsOf({});
-  o.present = line.given("-present") ? present : objects.size();
-  o.clutter = line.given("-unknown") ? unknown : others.size();
-  if (o.present > objects.size() || o.clutter > others.size())
+  requireConsistent(line);
+  job.sensing.threads = static_cast<unsigned>(threads);
+  job.objects = itemsOf(line.files());
+  if (line.given("-clutter"))
+    job.clutter = itemsOf(parts(clutter, ','));
+  o.present = line.given("-present") ? present : job.objects.size();
+  o.clutter = line.given("-unknown") ? unknown : job.clutter.size();
+  if (o.present > job.objects.size() || o.clutter > job.clutter.size())
     throw UsageError(std::string("option ") +
-                     (o.present > objects.size() ? "-present" : "-unknown") +
+                     (o.present > job.objects.size() ? "-present" : "-unknown") +
                      ": so many things were not given");
-  const Scene scene = generateScene(objects, others, o);
-  const PointLabels labels{scene.labels, scene.instances};
-  writeFile(out.scene, asPcd(scene.surflets, &labels));
-  if (line.given("-poses"))
-    writeFile(out.poses, asPoses(scene));
   if (line.given("-models"))
-    saveMeshes(line.files(), out.models);
-  if (line.given("-empty"))
-    writeFile(out.empty, asPcd(emptyBackground(o), nullptr));
-  note("wrote '" + out.scene + "': " + std::to_string(scene.surflets.size()) + " points, " +
-       std::to_string(scene.items.size()) + " items");
+    saveMeshes(line.files(), job.out.models);
+  write(job, line.given("-views"));
   return kOk;
 }
 

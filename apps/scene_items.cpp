@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <optional>
 
 namespace pcl_surflet {
 namespace apps {
@@ -24,16 +23,9 @@ turnedUp(TriangleMesh mesh, const std::string& axis)
   return mesh;
 }
 
-/** \brief An ITEM of the command line: a ready-made shape, or a mesh. */
-struct ItemSource {
-  std::string label;
-  std::optional<Shape> shape;
-  TriangleMesh mesh; ///< scaled and upright; empty for shapes
-};
-
-/** \brief SHAPE or FILE[:DIAMETER[:UP]]. */
-ItemSource
-sourceOf(const std::string& text)
+/** \brief SHAPE or FILE[:DIAMETER[:UP]]: scaled and upright. */
+SceneItem
+itemOf(const std::string& text)
 {
   const auto spec = parts(text, ':');
   if (auto shape = shapeByName(spec[0])) {
@@ -41,7 +33,7 @@ sourceOf(const std::string& text)
       throw UsageError("'" + spec[0] +
                        "' is a ready-made shape and has its size and posture; give "
                        "its name alone, or a mesh file");
-    return {spec[0], std::move(shape), {}};
+    return sceneItem(spec[0], *shape);
   }
   if (spec.size() > 3 || (spec.size() == 3 && spec[2] != "x" && spec[2] != "y" && spec[2] != "z"))
     throw UsageError("'" + text + "' is not FILE:DIAMETER:UP, where UP is x, y or z");
@@ -51,17 +43,10 @@ sourceOf(const std::string& text)
   if (!file.mesh)
     throw DataError(spec[0] + ": holds points; give a file with faces, or the name of a shape");
   const TriangleMesh upright = spec.size() == 3 ? turnedUp(*file.mesh, spec[2]) : *file.mesh;
-  return {stemOf(spec[0]), {}, diameter > 0 ? scaledToDiameter(upright, diameter) : upright};
+  return sceneItem(stemOf(spec[0]), diameter > 0 ? scaledToDiameter(upright, diameter) : upright);
 }
 
 } // namespace
-
-TriangleMesh
-meshOf(const Shape& shape, double vertices)
-{
-  // n vertices carry 2n triangles, of sqrt(3)/4 e^2 each if they are equilateral.
-  return meshOfShape(shape, std::sqrt(areaOfShape(shape) * 2 / (std::sqrt(3.0) * vertices)));
-}
 
 std::vector<std::string>
 parts(const std::string& text, char separator)
@@ -79,24 +64,20 @@ std::vector<SceneItem>
 itemsOf(const std::vector<std::string>& texts)
 {
   std::vector<SceneItem> items;
-  for (const auto& text : texts) {
-    const ItemSource source = sourceOf(text);
-    items.push_back(source.shape ? sceneItem(source.label, *source.shape)
-                                 : sceneItem(source.label, source.mesh));
-  }
+  for (const auto& text : texts)
+    items.push_back(itemOf(text));
   return items;
 }
 
 void
 saveMeshes(const std::vector<std::string>& texts, const std::string& directory)
 {
-  constexpr double kVertices = 20000; // of a shape: fine enough for handles and rims
-  std::error_code failure;            // saveOff() will say it better
+  std::error_code failure; // saveOff() will say it better
   std::filesystem::create_directories(directory, failure);
   for (const auto& text : texts) {
-    const ItemSource source = sourceOf(text);
-    const auto path = std::filesystem::path(directory) / (source.label + ".off");
-    saveOff(source.shape ? meshOf(*source.shape, kVertices) : source.mesh, path.string());
+    const SceneItem item = itemOf(text);
+    const auto path = std::filesystem::path(directory) / (item.label + ".off");
+    saveOff(item.mesh(), path.string());
   }
 }
 

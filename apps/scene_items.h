@@ -16,9 +16,6 @@ namespace apps {
 /** \brief \p text cut at every \p separator. */
 std::vector<std::string> parts(const std::string& text, char separator);
 
-/** \brief A mesh of the shape with roughly as many vertices. */
-TriangleMesh meshOf(const Shape& shape, double vertices);
-
 /** \brief Items given as SHAPE or FILE[:DIAMETER[:UP]]. \throws UsageError, DataError */
 std::vector<SceneItem> itemsOf(const std::vector<std::string>& texts);
 

@@ -70,7 +70,54 @@ onBowl(const SceneOptions& o, CounterRandom& random)
   return surfletAt(p, scaled(subtract({0, 0, r}, p), 1 / r));
 }
 
+/** \brief Two triangles, counter-clockwise seen from the normal's side. */
+void
+append(TriangleMesh& mesh, const Rectangle& r)
+{
+  const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+  for (const auto& corner :
+       {r.origin, add(r.origin, r.a), add(r.origin, add(r.a, r.b)), add(r.origin, r.b)})
+    mesh.vertices.push_back(toFloat3(corner));
+  const bool turned = dot(cross(r.a, r.b), r.normal) < 0;
+  const std::uint32_t second = first + (turned ? 3 : 1), fourth = first + (turned ? 1 : 3);
+  mesh.triangles.push_back({first, second, first + 2});
+  mesh.triangles.push_back({first, first + 2, fourth});
+}
+
+/** \brief Rings of vertices from the lowest point to the rim, seen from inside. */
+TriangleMesh
+bowlMesh(const SceneOptions& o)
+{
+  constexpr std::uint32_t kRings = 64, kSectors = 256; // within 0.1 mm of a bowl of 1 m
+  TriangleMesh mesh;
+  for (std::uint32_t ring = 0; ring <= kRings; ++ring)
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      const double rho = 0.5 * o.size * ring / kRings, angle = 2 * M_PI * sector / kSectors;
+      mesh.vertices.push_back(
+          toFloat3({rho * std::cos(angle), rho * std::sin(angle), bowlHeight(o, rho)}));
+    }
+  for (std::uint32_t ring = 0; ring < kRings; ++ring)
+    for (std::uint32_t sector = 0; sector < kSectors; ++sector) {
+      const std::uint32_t next = (sector + 1) % kSectors, low = ring * kSectors,
+                          high = low + kSectors;
+      mesh.triangles.push_back({low + sector, high + sector, high + next});
+      mesh.triangles.push_back({low + sector, high + next, low + next});
+    }
+  return mesh;
+}
+
 } // namespace
+
+TriangleMesh
+backgroundMesh(const SceneOptions& o)
+{
+  if (o.background == Background::Bowl)
+    return bowlMesh(o);
+  TriangleMesh mesh;
+  for (const auto& rectangle : rectanglesOf(o))
+    append(mesh, rectangle);
+  return mesh;
+}
 
 double
 floorHeight(const SceneOptions& o, double x, double y)

@@ -201,11 +201,20 @@ append(Scene& scene, const SurfletSet& set, std::uint32_t label, std::uint32_t i
 
 } // namespace
 
+TriangleMesh
+meshOf(const Shape& shape, double vertices)
+{
+  // n vertices carry 2n triangles, of sqrt(3)/4 e^2 each if they are equilateral.
+  return meshOfShape(shape, std::sqrt(areaOfShape(shape) * 2 / (std::sqrt(3.0) * vertices)));
+}
+
 SceneItem
 sceneItem(const std::string& label, const Shape& shape)
 {
+  constexpr double kVertices = 20000; // fine enough for handles and rims
   return {label, areaOfShape(shape),
-          [shape](std::size_t n, std::uint64_t seed) { return sampleShape(shape, n, seed); }};
+          [shape](std::size_t n, std::uint64_t seed) { return sampleShape(shape, n, seed); },
+          [shape] { return meshOf(shape, kVertices); }};
 }
 
 SceneItem
@@ -214,7 +223,8 @@ sceneItem(const std::string& label, const TriangleMesh& mesh)
   if (const auto problem = mesh.problem(); !problem.empty())
     throw std::invalid_argument("'" + label + "': " + problem);
   return {label, surfaceArea(mesh),
-          [mesh](std::size_t n, std::uint64_t seed) { return sampleSurface(mesh, n, seed); }};
+          [mesh](std::size_t n, std::uint64_t seed) { return sampleSurface(mesh, n, seed); },
+          [mesh] { return mesh; }};
 }
 
 Scene
@@ -261,6 +271,40 @@ emptyBackground(const SceneOptions& o)
   const auto seed = mix64(o.seed ^ kEmptyStream);
   const std::size_t n = surfletsFor(detail::backgroundArea(o), o);
   return noisy(detail::sampleBackground(o, n, seed), o.noise, seed);
+}
+
+std::vector<SensedBody>
+backgroundBodies(const SceneOptions& o)
+{
+  check(o);
+  if (o.background == Background::None)
+    return {};
+  return {{detail::backgroundMesh(o), 0, 0}};
+}
+
+std::vector<SensedBody>
+bodiesOf(const Scene& scene, const std::vector<SceneItem>& objects,
+         const std::vector<SceneItem>& clutter, const SceneOptions& o)
+{
+  auto bodies = backgroundBodies(o);
+  for (std::size_t k = 0; k < scene.items.size(); ++k) {
+    const auto& item = scene.items[k];
+    const std::size_t number = item.number - 1;
+    const auto& source =
+        number < objects.size() ? objects.at(number) : clutter.at(number - objects.size());
+    if (!source.mesh)
+      throw std::invalid_argument("bodiesOf: '" + source.label + "' has no mesh to be sensed");
+    SensedBody body{source.mesh(), item.number, static_cast<std::uint32_t>(k + 1)};
+    const auto& m = item.pose;
+    for (auto& v : body.mesh.vertices) {
+      const detail::Vector3 p = detail::toVector3(v);
+      v = detail::toFloat3({m[0] * p[0] + m[1] * p[1] + m[2] * p[2] + m[3],
+                            m[4] * p[0] + m[5] * p[1] + m[6] * p[2] + m[7],
+                            m[8] * p[0] + m[9] * p[1] + m[10] * p[2] + m[11]});
+    }
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
 }
 
 } // namespace pcl_surflet

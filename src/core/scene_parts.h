@@ -39,6 +39,7 @@ void translate(PlacementItem& item, const Vector3& by);
 /** \brief Height of what carries the items at (\p x, \p y). */
 double floorHeight(const SceneOptions& options, double x, double y);
 double backgroundArea(const SceneOptions& options);
+TriangleMesh backgroundMesh(const SceneOptions& options);
 SurfletSet sampleBackground(const SceneOptions& options, std::size_t n, std::uint64_t seed);
 
 /** \brief Puts all items in their places. \throws std::invalid_argument if they do not fit */

@@ -2,6 +2,7 @@
  * Labelled scenes of objects on a background, for experiments and tests. */
 #pragma once
 
+#include "pcl_surflet/core/depth_sensor.h"
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
@@ -20,7 +21,12 @@ struct SceneItem {
   double area = 0; ///< squared unit
   /** \brief Draws n surflets uniformly by area with a seed. */
   std::function<SurfletSet(std::size_t n, std::uint64_t seed)> sample;
+  /** \brief The item as a mesh, for sensors; a shape's has some 20,000 vertices. */
+  std::function<TriangleMesh()> mesh = {};
 };
+
+/** \brief A mesh of the shape with roughly as many vertices. */
+PCL_SURFLET_API TriangleMesh meshOf(const Shape& shape, double vertices);
 
 PCL_SURFLET_API SceneItem sceneItem(const std::string& label, const Shape& shape);
 /** \throws std::invalid_argument with mesh.problem() */
@@ -113,5 +119,17 @@ PCL_SURFLET_API Scene generateScene(const std::vector<SceneItem>& objects,
 /** \brief The same background without objects, sensed another time: other surflets of the same
  * surface. \throws std::invalid_argument if a parameter is out of range */
 PCL_SURFLET_API SurfletSet emptyBackground(const SceneOptions& options);
+
+/** \brief The background as a body for sensors, or nothing if there is none.
+ * \throws std::invalid_argument if a parameter is out of range */
+PCL_SURFLET_API std::vector<SensedBody> backgroundBodies(const SceneOptions& options);
+
+/** \brief What a sensor meets in \p scene, which generateScene() made of the other arguments: the
+ * background, then the items in their places.
+ * \throws std::invalid_argument if a parameter is out of range or an item has no mesh */
+PCL_SURFLET_API std::vector<SensedBody> bodiesOf(const Scene& scene,
+                                                 const std::vector<SceneItem>& objects,
+                                                 const std::vector<SceneItem>& clutter,
+                                                 const SceneOptions& options);
 
 } // namespace pcl_surflet

@@ -1,0 +1,98 @@
+/** \file
+ * A virtual depth camera or structured-light head: what a sensor would measure of a scene of meshes
+ * [Wahl 2007, Sec. 5.5.3]. */
+#pragma once
+
+#include "pcl_surflet/core/triangle_mesh.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace pcl_surflet {
+
+/** \brief A surface of a scene and what it belongs to. Both sides of its triangles are seen. */
+struct SensedBody {
+  TriangleMesh mesh;          ///< in the scene
+  std::uint32_t label = 0;    ///< 0 background, else the object's number
+  std::uint32_t instance = 0; ///< 0 background, else which thing of the scene
+};
+
+/** \brief Where a sensor is and where it looks. */
+struct SensorPose {
+  std::array<double, 3> position{0, 0, 1}, target{0, 0, 0};
+  /** \brief Upwards in the picture, as far as the view allows; if it looks along this direction,
+   * another one is taken. */
+  std::array<double, 3> up{0, 0, 1};
+};
+
+/** \brief Parameters of sense(); lengths in the unit of the scene (metres by default), angles in
+ * degrees. Defaults are those of a noiseless camera. */
+struct DepthSensor {
+  std::size_t columns = 640, rows = 480; ///< pixels, together at most 2^26
+  double opening = 57;                   ///< across the columns, in (0, 170]; pixels are square
+  double noise = 0;       ///< standard deviation of the depth (along forward) at depth 1, >= 0
+  double noise_power = 0; ///< by which power of the depth it grows, in [0, 4]; triangulation: 2
+  double quantum = 0;     ///< depths are whole multiples of it; 0: any depth; >= 0
+  /** \brief Share of the pixels at depth edges that measure something between both sides, in
+   * [0, 1]. Such points belong to nothing: label and instance 0. */
+  double flying = 0;
+  double edge = 0.02;  ///< a depth edge: neighbouring pixels differ by more, > 0
+  double grazing = 90; ///< no return from surfaces seen farther off their normal, in (0, 90]
+  /** \brief Distance of a projector to the right of the camera (negative: left), looking the same
+   * way with the same opening; what it does not light gives no return. 0: none. */
+  double baseline = 0;
+};
+
+/** \brief Cartesian frame of a sensor: x to the right, y down, z forward. */
+struct SensorFrame {
+  std::array<double, 3> position{0, 0, 0}, right{1, 0, 0}, down{0, 1, 0}, forward{0, 0, 1};
+
+  SensorFrame() = default;
+  /** \throws std::invalid_argument if the pose is not finite or looks nowhere */
+  PCL_SURFLET_API explicit SensorFrame(const SensorPose& pose);
+
+  PCL_SURFLET_API std::array<double, 3> toScene(const std::array<double, 3>& point) const;
+  PCL_SURFLET_API std::array<double, 3> toSensor(const std::array<double, 3>& point) const;
+  /** \brief (w, x, y, z) of the rotation from sensor to scene, w >= 0. */
+  PCL_SURFLET_API std::array<double, 4> quaternion() const;
+};
+
+/** \brief An organised picture of points, row by row. */
+struct DepthScan {
+  SensorFrame frame;
+  std::size_t columns = 0, rows = 0;
+  std::vector<float> x, y, z; ///< in the sensor's frame; NaN in all three: no return
+  std::vector<std::uint32_t> labels, instances; ///< of each pixel; 0 also where nothing returns
+};
+
+/** \brief What a sensor measures of \p bodies.
+ *
+ * A pixel measures the foremost surface at its middle. The result depends on the arguments alone.
+ * \throws std::invalid_argument if a parameter is out of range or a mesh has a problem() */
+PCL_SURFLET_API DepthScan sense(const std::vector<SensedBody>& bodies, const DepthSensor& sensor,
+                                const SensorPose& pose, std::uint64_t seed);
+
+/** \brief From where a scene is looked at. */
+enum class ViewSet {
+  One,
+  Two,    ///< antipodal: from the other side, too
+  Ring24, ///< every 30 degrees, two sensors at different heights [Wahl 2007, Sec. 5.5.3]
+  All24   ///< all round, also from below, evenly on a sphere
+};
+
+/** \brief Places of the sensor; angles in degrees. */
+struct ViewOptions {
+  ViewSet views = ViewSet::Ring24;
+  std::array<double, 3> target{0, 0, 0.05}; ///< that every sensor looks at
+  double distance = 1.4;                    ///< from there, > 0
+  double elevation = 45;                    ///< above the horizon; the upper ring; in (-90, 90)
+  double second_elevation = 25;             ///< the lower ring
+  double azimuth = 0;                       ///< of the first sensor, about the vertical
+};
+
+/** \brief The poses of a set of views. \throws std::invalid_argument if an option is out of range
+ */
+PCL_SURFLET_API std::vector<SensorPose> sensorPoses(const ViewOptions& options);
+
+} // namespace pcl_surflet
