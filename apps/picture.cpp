@@ -11,15 +11,18 @@ namespace pcl_surflet {
 namespace apps {
 
 void
-drawPicture(const std::string& labelled, const std::string& database, const std::string& picture)
+drawPicture(const std::string& labelled, const std::string& database, const std::string& picture,
+            const std::string& overlay)
 {
   std::error_code failure;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
   const std::string viewer = (self.parent_path() / "pcl_surflet_view").string();
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl(viewer.c_str(), viewer.c_str(), "-database", database.c_str(), "-picture",
-            picture.c_str(), "--", labelled.c_str(), static_cast<char*>(nullptr));
+    const char* arguments[] = {viewer.c_str(),   "-database", database.c_str(), "-picture",
+                               picture.c_str(),  "-overlay",  overlay.c_str(),  "--",
+                               labelled.c_str(), nullptr};
+    ::execv(viewer.c_str(), const_cast<char**>(arguments));
     ::_exit(127);
   }
   int status = 0;

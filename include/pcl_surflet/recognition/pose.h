@@ -107,15 +107,15 @@ struct PoseParameters {
   /** \brief Places of the sensors that made the scene, in its coordinates. Known, what a pose says
    * they should have seen and have not counts against it. Empty: unknown. */
   std::vector<std::array<double, 3>> viewpoints;
-  std::size_t references = 40;  ///< cells whose pairs vote, >= 1
-  std::size_t partners = 400;   ///< cells that each is paired with, >= 1
-  std::size_t peaks = 3;        ///< poses that each reference proposes, >= 1
-  std::size_t refined = 12;     ///< proposals that are refined, >= 1
+  std::size_t references = 40;    ///< cells whose pairs vote, >= 1
+  std::size_t partners = 400;     ///< cells that each is paired with, >= 1
+  std::size_t peaks = 3;          ///< poses that each reference proposes, >= 1
+  std::size_t refined = 12;       ///< proposals that are refined, >= 1
   std::size_t final_cells = 1500; ///< most cells of the cluster that are looked at, >= 50
-  double coarse_reach = 0.08;   ///< farthest distance that counts among proposals, in (0, 0.08]
-  double fine_reach = 0.03;     ///< the same at the end, in (0, coarse_reach]
-  double unseen_weight = 0.3;   ///< of surface not found, where viewpoints are known, in [0, 1]
-  double min_inliers = 0.3;     ///< least share of the cluster that lies on the model, in [0, 1]
+  double coarse_reach = 0.08;     ///< farthest distance that counts among proposals, in (0, 0.08]
+  double fine_reach = 0.03;       ///< the same at the end, in (0, coarse_reach]
+  double unseen_weight = 0.3;     ///< of surface not found, where viewpoints are known, in [0, 1]
+  double min_inliers = 0.3;       ///< least share of the cluster that lies on the model, in [0, 1]
   std::uint64_t seed = 1;
 };
 
@@ -123,15 +123,16 @@ enum class PoseStatus {
   Found,
   TooFewCells,  ///< fewer than three cells, or nothing finite
   Undetermined, ///< planar, or normals that leave the pose open: no three independent directions
-  NoAgreement   ///< no pose puts enough of the cluster on the model
+  NoAgreement,  ///< no pose puts enough of the cluster on the model
+  NoModel       ///< PoseEstimator: no model has the name of the detection
 };
 
 /** \brief Where an object is. */
 struct PoseEstimate {
   PoseStatus status = PoseStatus::TooFewCells;
-  std::string reason; ///< status in words; empty if a pose was found
-  RigidMotion motion; ///< from the model's coordinates to the scene's
-  double score = 0;   ///< by which poses were compared: inlier share less what should be seen
+  std::string reason;      ///< status in words; empty if a pose was found
+  RigidMotion motion;      ///< from the model's coordinates to the scene's
+  double score = 0;        ///< by which poses were compared: inlier share less what should be seen
   double inlier_share = 0; ///< of the cluster's cells, weighted by how well they fit, in [0, 1]
   /** \brief Score less that of the best pose found that looks different; small where the cluster
    * leaves the pose open, say where a cup hides its handle. */
@@ -140,7 +141,7 @@ struct PoseEstimate {
   /** \brief Standard deviation of the object's centre, scene's unit, and of its rotation, radians,
    * as the residuals of independent cells tell; without the turn about a continuous axis. */
   double position_deviation = 0, rotation_deviation = 0;
-  Symmetry symmetry; ///< in the scene's coordinates
+  Symmetry symmetry;     ///< in the scene's coordinates
   std::size_t cells = 0; ///< of the cluster, looked at
 };
 
@@ -154,9 +155,13 @@ struct PoseEstimate {
  *
  * \param cluster points or cells of one object, normals outwards; up to a quarter may be foreign.
  * Surflets that are not finite are left out.
+ * \param beside points around the cluster that belong to no other object: what a segmentation lost.
+ * They propose no pose, but confirm one where they lie on the model: a cup's handle often is
+ * missing in its cluster. Far ones are ignored.
  * The result depends on nothing but the arguments. \throws std::invalid_argument if a parameter is
  * out of range */
 PCL_SURFLET_API PoseEstimate estimatePose(const SurfletSet& cluster, const PoseModel& model,
-                                          const PoseParameters& parameters = {});
+                                          const PoseParameters& parameters = {},
+                                          const SurfletSet& beside = {});
 
 } // namespace pcl_surflet

@@ -14,6 +14,9 @@ constexpr double kEnoughCosine = 0.87; ///< from here on, that is all one can as
  * apart. */
 constexpr double kSpacing = 0.015;
 
+/** \brief Of a cell beside the cluster that lies on the model: it may be there by chance. */
+constexpr double kBesideWeight = 0.5;
+
 /** \brief What a cell of the cluster meets on the model. */
 struct Contact {
   std::uint16_t surflet = SurfaceLookup::none;
@@ -36,15 +39,35 @@ contactOf(const ModelData& model, const SurfletSet& cells, std::size_t i,
   c.normal = normalOf(model.surface, c.surflet);
   const Vector3 d = detail::subtract(c.place, positionOf(model.surface, c.surflet));
   c.distance = detail::dot(d, c.normal);
-  const double sideways =
-      std::sqrt(std::max(0.0, detail::dot(d, d) - c.distance * c.distance));
+  const double sideways = std::sqrt(std::max(0.0, detail::dot(d, d) - c.distance * c.distance));
   const double beyond = std::max(0.0, sideways - kSpacing);
   const double square = (c.distance * c.distance + beyond * beyond) / (reach * reach);
-  const double alike =
-      (detail::dot(n, c.normal) - kLeastCosine) / (kEnoughCosine - kLeastCosine);
+  const double alike = (detail::dot(n, c.normal) - kLeastCosine) / (kEnoughCosine - kLeastCosine);
   if (square < 1 && alike > 0)
     c.weight = (1 - square) * std::min(1.0, alike);
   return c;
+}
+
+/** \brief Sums over the contacts of a set. */
+struct Contacts {
+  double weight = 0, squares = 0;
+};
+
+/** \brief Marks the model's cells that are met in \p found. */
+Contacts
+contactsOf(const ModelData& model, const SurfletSet& cells, const RigidMotion& to_model,
+           double reach, std::vector<char>& found)
+{
+  Contacts sum;
+  for (std::size_t i = 0; i < cells.size(); ++i) {
+    const Contact c = contactOf(model, cells, i, to_model, reach);
+    if (!(c.weight > 0))
+      continue;
+    sum.weight += c.weight;
+    sum.squares += c.weight * c.distance * c.distance;
+    found[model.cell_of[c.surflet]] = 1;
+  }
+  return sum;
 }
 
 /** \brief Cells of the model that the sensors should see. */
@@ -91,23 +114,16 @@ smallMotion(const std::array<double, 6>& step)
 Fit
 fitOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_model, double reach)
 {
-  Fit fit;
-  const std::size_t n = cluster.cells.size();
+  const double n = static_cast<double>(std::max<std::size_t>(cluster.cells.size(), 1));
   std::vector<char> found(model.cells.size(), 0);
-  for (std::size_t i = 0; i < n; ++i) {
-    const Contact c = contactOf(model, cluster.cells, i, to_model, reach);
-    if (!(c.weight > 0))
-      continue;
-    fit.share += c.weight;
-    fit.squares += c.weight * c.distance * c.distance;
-    found[model.cell_of[c.surflet]] = 1;
-  }
-  fit.squares = fit.share > 0 ? fit.squares / fit.share : 0;
-  fit.share = n > 0 ? fit.share / static_cast<double>(n) : 0;
-  fit.score = fit.share;
+  const auto own = contactsOf(model, cluster.cells, to_model, reach, found);
+  const auto beside = contactsOf(model, cluster.beside, to_model, reach, found);
+  Fit fit;
+  fit.share = own.weight / n;
+  fit.squares = own.weight > 0 ? own.squares / own.weight : 0;
+  fit.score = (own.weight + kBesideWeight * beside.weight) / n;
   if (!cluster.viewpoints.empty() && cluster.unseen_weight > 0)
-    fit.score -=
-        cluster.unseen_weight * unseenShare(expected(model, cluster, to_model), found);
+    fit.score -= cluster.unseen_weight * unseenShare(expected(model, cluster, to_model), found);
   return fit;
 }
 
@@ -115,7 +131,7 @@ double
 selfShare(const ModelData& model, const RigidMotion& motion, double reach)
 {
   constexpr std::size_t kSurflets = 800;
-  return fitOf(model, {thinned(model.surface, kSurflets), {}, 0}, motion, reach).share;
+  return fitOf(model, {thinned(model.surface, kSurflets), {}, {}, 0}, motion, reach).share;
 }
 
 std::array<double, 6>

@@ -49,9 +49,9 @@ allPairs(const SurfletSet& cells)
         continue;
       const std::size_t origin = second ? j : i, other = second ? i : j;
       const Vector3 d = detail::subtract(positionOf(cells, other), positionOf(cells, origin));
-      all.push_back({binOf({f->alpha, f->beta, f->gamma, f->delta}),
-                     {static_cast<std::uint16_t>(origin),
-                      static_cast<float>(azimuthOf(d, frames[origin]))}});
+      all.push_back(
+          {binOf({f->alpha, f->beta, f->gamma, f->delta}),
+           {static_cast<std::uint16_t>(origin), static_cast<float>(azimuthOf(d, frames[origin]))}});
     }
   return all;
 }
@@ -92,7 +92,8 @@ PairTable::PairTable(const SurfletSet& cells)
   pairs_.resize(begin_[bins]);
   for (const auto& p : all) {
     // Of n pairs the k-th is kept if k * most / n steps to the next number: evenly, exactly most.
-    const std::uint64_t n = count[p.bin], k = met[p.bin]++, most = std::min(count[p.bin], kMostPairs);
+    const std::uint64_t n = count[p.bin], k = met[p.bin]++,
+                        most = std::min(count[p.bin], kMostPairs);
     const std::uint64_t place = k * most / n;
     if (k == 0 || (k - 1) * most / n != place)
       pairs_[begin_[p.bin] + place] = p.pair;

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::size_t kScoringCells = 200; ///< by which proposals are compared
 constexpr double kFinalLeaf = 1.0 / 40;
-constexpr double kLooksAlike = 0.9; ///< share of the model on itself that no one can tell apart
+constexpr double kAlikeReach = 0.03,
+                 kLooksAlike = 0.95; ///< share of the model on itself that no one can tell apart
 
 void
 check(const PoseParameters& p)
@@ -63,16 +64,15 @@ usable(const SurfletSet& cluster)
   return out;
 }
 
-/** \brief The part of a cluster within reach of the model, as seen from its middle: a cell two
- * diameters away belongs to nothing. */
+/** \brief The part of \p cluster within \p radius of the middle, where the model can be. */
 SurfletSet
-inUnits(const SurfletSet& cluster, const SceneFrame& frame)
+inUnits(const SurfletSet& cluster, const SceneFrame& frame, double radius)
 {
   SurfletSet out;
   out.reserve(cluster.size());
   for (std::size_t i = 0; i < cluster.size(); ++i) {
     const Vector3 p = frame.into(positionOf(cluster, i));
-    if (detail::dot(p, p) > 4)
+    if (!(detail::dot(p, p) <= radius * radius))
       continue;
     const auto q = detail::toFloat3(p);
     out.push_back({q[0], q[1], q[2], cluster.nx[i], cluster.ny[i], cluster.nz[i]});
@@ -108,6 +108,14 @@ refusal(PoseStatus status, const std::string& reason, std::size_t cells)
   return e;
 }
 
+SurfletSet
+joined(SurfletSet a, const SurfletSet& b)
+{
+  for (std::size_t i = 0; i < b.size(); ++i)
+    a.push_back(b[i]);
+  return a;
+}
+
 /** \brief One estimation. */
 class Search {
 public:
@@ -131,8 +139,9 @@ public:
     best = distinct(std::move(best), parameters_.refined);
     for (unsigned round = 0; round < 2 && !best.empty(); ++round)
       tryTurns(best);
+    const SurfletSet all = joined(cluster_.cells, cluster_.beside);
     for (auto& p : best)
-      p = settled(p.to_model, cluster_.cells, 2 * parameters_.fine_reach, 6);
+      p = settled(p.to_model, all, 2 * parameters_.fine_reach, 6);
     return distinct(std::move(best), best.size());
   }
 
@@ -141,9 +150,8 @@ private:
   settled(const RigidMotion& start, const SurfletSet& cells, double reach, unsigned steps) const
   {
     Proposal p;
-    p.to_model =
-        refined(model_, cells, start, std::max(reach, parameters_.fine_reach),
-                parameters_.fine_reach, steps);
+    p.to_model = refined(model_, cells, start, std::max(reach, parameters_.fine_reach),
+                         parameters_.fine_reach, steps);
     p.score = fitOf(model_, cluster_, p.to_model, parameters_.fine_reach).score;
     return p;
   }
@@ -153,14 +161,15 @@ private:
   tryTurns(std::vector<Proposal>& best) const
   {
     constexpr std::size_t kSettled = 4;
+    const double reach = 2 * parameters_.fine_reach; // half a step between turns must not matter
     std::vector<Proposal> turned;
     for (const auto& turn : model_.turns) {
       const RigidMotion m = turn.after(best.front().to_model);
-      turned.push_back({m, fitOf(model_, cluster_, m, parameters_.fine_reach).score});
+      turned.push_back({m, fitOf(model_, cluster_, m, reach).score});
     }
-    const SurfletSet some = thinned(cluster_.cells, 2 * kScoringCells);
+    const SurfletSet some = joined(thinned(cluster_.cells, 2 * kScoringCells), cluster_.beside);
     for (const auto& p : distinct(std::move(turned), kSettled))
-      best.push_back(settled(p.to_model, some, 2 * parameters_.fine_reach, 4));
+      best.push_back(settled(p.to_model, some, reach, 4));
     best = distinct(std::move(best), parameters_.refined);
   }
 
@@ -175,7 +184,7 @@ marginOf(const ModelData& model, const std::vector<Proposal>& found)
 {
   for (std::size_t k = 1; k < found.size(); ++k) {
     const RigidMotion between = found[k].to_model.after(found[0].to_model.inverse());
-    if (selfShare(model, between, kReach) < kLooksAlike)
+    if (selfShare(model, between, kAlikeReach) < kLooksAlike)
       return found[0].score - found[k].score;
   }
   return found[0].score;
@@ -202,8 +211,7 @@ setDeviations(const ModelData& model, const SurfletSet& cells, const Proposal& b
     diagonal[a] = unit.solved(1e-9 * equations.weight)[a] * variance;
   }
   e.rotation_deviation = std::sqrt(diagonal[0] + diagonal[1] + diagonal[2]);
-  e.position_deviation =
-      std::sqrt(diagonal[3] + diagonal[4] + diagonal[5]) * model.diameter;
+  e.position_deviation = std::sqrt(diagonal[3] + diagonal[4] + diagonal[5]) * model.diameter;
 }
 
 /** \brief From the unit frames to the model's and the scene's coordinates. */
@@ -211,9 +219,9 @@ RigidMotion
 toScene(const ModelData& model, const SceneFrame& frame, const RigidMotion& to_model)
 {
   RigidMotion m = to_model.inverse();
-  m.translation = detail::subtract(
-      detail::add(frame.centre, detail::scaled(m.translation, model.diameter)),
-      m.turned(model.centre));
+  m.translation =
+      detail::subtract(detail::add(frame.centre, detail::scaled(m.translation, model.diameter)),
+                       m.turned(model.centre));
   return m;
 }
 
@@ -231,7 +239,8 @@ movedSymmetry(Symmetry s, const RigidMotion& motion)
 } // namespace pose
 
 PoseEstimate
-estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PoseParameters& p)
+estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PoseParameters& p,
+             const SurfletSet& beside)
 {
   using namespace pose;
   check(p);
@@ -239,8 +248,9 @@ estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PosePar
   const SurfletSet points = usable(given);
   const SceneFrame frame = frameAround(points, model.diameter);
   Cluster cluster;
-  cluster.cells =
-      thinned(cellsByDirection(inUnits(points, frame), kFinalLeaf), p.final_cells);
+  cluster.cells = thinned(cellsByDirection(inUnits(points, frame, 2), kFinalLeaf), p.final_cells);
+  cluster.beside =
+      thinned(cellsByDirection(inUnits(usable(beside), frame, 1), kFinalLeaf), p.final_cells);
   cluster.unseen_weight = p.unseen_weight;
   for (const auto& v : p.viewpoints)
     cluster.viewpoints.push_back(frame.into(v));

@@ -100,8 +100,7 @@ PoseModel::train(const std::string& label, const SurfletSet& surflets, std::uint
   if (surface.size() < pose::kFewestCells)
     throw PoseModelError("'" + label + "' has only " + std::to_string(surface.size()) +
                          " cells; give more surflets of its surface, 20,000 are a good number");
-  const auto data =
-      std::make_shared<pose::ModelData>(label, diameter, centre, std::move(surface));
+  const auto data = std::make_shared<pose::ModelData>(label, diameter, centre, std::move(surface));
   pose::findSymmetries(*data, seed);
   return PoseModel(data);
 }
@@ -130,8 +129,8 @@ PoseModel::cells() const
   SurfletSet out;
   const SurfletSet& cells = data_->cells;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto p = detail::toFloat3(detail::add(
-        data_->centre, detail::scaled(pose::positionOf(cells, i), data_->diameter)));
+    const auto p = detail::toFloat3(
+        detail::add(data_->centre, detail::scaled(pose::positionOf(cells, i), data_->diameter)));
     out.push_back({p[0], p[1], p[2], cells.nx[i], cells.ny[i], cells.nz[i]});
   }
   return out;

@@ -123,6 +123,7 @@ struct ModelData {
 /** \brief Cells of a cluster and where its sensors are, in a frame of the model's unit. */
 struct Cluster {
   SurfletSet cells;
+  SurfletSet beside; ///< cells that may belong to the object, too
   std::vector<Vector3> viewpoints;
   double unseen_weight = 0;
 };
@@ -133,7 +134,8 @@ struct Fit {
   double squares = 0; ///< mean squared distance from tangent planes, weighted
 };
 
-/** \brief How well the cluster lies on the model if \p to_model takes it there. */
+/** \brief How well the cluster lies on the model if \p to_model takes it there. Cells beside it add
+ * to the score where they lie on the model, and count as found. */
 Fit fitOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_model,
           double reach);
 

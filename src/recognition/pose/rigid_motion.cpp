@@ -53,12 +53,11 @@ RigidMotion::quaternion() const
 {
   // Squares of the four components times four; the largest is safe to divide by [Shepperd 1978].
   const auto& r = rotation;
-  const std::array<double, 4> squares = {1 + r[0][0] - r[1][1] - r[2][2],
-                                         1 - r[0][0] + r[1][1] - r[2][2],
-                                         1 - r[0][0] - r[1][1] + r[2][2],
-                                         1 + r[0][0] + r[1][1] + r[2][2]};
-  const auto k = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) -
-                                          squares.begin());
+  const std::array<double, 4> squares = {
+      1 + r[0][0] - r[1][1] - r[2][2], 1 - r[0][0] + r[1][1] - r[2][2],
+      1 - r[0][0] - r[1][1] + r[2][2], 1 + r[0][0] + r[1][1] + r[2][2]};
+  const auto k =
+      static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) - squares.begin());
   const std::array<std::array<double, 4>, 4> rows = {
       {{squares[0], r[0][1] + r[1][0], r[0][2] + r[2][0], r[2][1] - r[1][2]},
        {r[0][1] + r[1][0], squares[1], r[1][2] + r[2][1], r[0][2] - r[2][0]},

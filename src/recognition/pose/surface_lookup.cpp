@@ -89,8 +89,8 @@ SurfaceLookup::enter(const SurfletSet& surface, std::size_t i, std::size_t direc
   for (std::size_t a = 0; a < 3; ++a) {
     first[a] = std::max<std::ptrdiff_t>(
         0, static_cast<std::ptrdiff_t>((p[a] - kReach - low_[a]) / kVoxel));
-    last[a] = std::min(size_[a] - 1,
-                       static_cast<std::ptrdiff_t>((p[a] + kReach - low_[a]) / kVoxel));
+    last[a] =
+        std::min(size_[a] - 1, static_cast<std::ptrdiff_t>((p[a] + kReach - low_[a]) / kVoxel));
   }
   const auto square = [&](std::size_t a, std::ptrdiff_t c) {
     const double d = low_[a] + (static_cast<double>(c) + 0.5) * kVoxel - p[a];
@@ -99,8 +99,8 @@ SurfaceLookup::enter(const SurfletSet& surface, std::size_t i, std::size_t direc
   for (std::ptrdiff_t x = first[0]; x <= last[0]; ++x)
     for (std::ptrdiff_t y = first[1]; y <= last[1]; ++y) {
       const double flat = square(0, x) + square(1, y);
-      const auto row = ((static_cast<std::ptrdiff_t>(direction) * size_[0] + x) * size_[1] + y) *
-                       size_[2];
+      const auto row =
+          ((static_cast<std::ptrdiff_t>(direction) * size_[0] + x) * size_[1] + y) * size_[2];
       for (std::ptrdiff_t z = first[2]; z <= last[2]; ++z) {
         const auto d = static_cast<float>(flat + square(2, z));
         const auto voxel = static_cast<std::size_t>(row + z);

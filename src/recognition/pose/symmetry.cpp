@@ -10,14 +10,14 @@ namespace pcl_surflet {
 namespace pose {
 namespace {
 
-constexpr double kExact = 0.955;     ///< share of a surface on itself that makes it symmetric
-constexpr double kNear = 0.6;        ///< and one worth a try when a pose is decided
+constexpr double kExact = 0.955; ///< share of a surface on itself that makes it symmetric
+constexpr double kNear = 0.6;    ///< and one worth a try when a pose is decided
 constexpr double kReachOfSelf = 0.02;
-constexpr double kLeastTurn = 0.35;  ///< radians
+constexpr double kLeastTurn = 0.35; ///< radians
 constexpr double kSameAxis = 0.09;
 constexpr std::size_t kMostAxes = 24;
 constexpr unsigned kMostOrder = 12;
-constexpr int kSteps = 36;           ///< turns about an axis that are tried
+constexpr int kSteps = 36; ///< turns about an axis that are tried
 
 struct Axis {
   Vector3 direction, point;
@@ -48,9 +48,9 @@ axisOf(const RigidMotion& m)
   const Vector3 across =
       detail::subtract(m.translation, detail::scaled(best, detail::dot(m.translation, best)));
   const double cotangent = 1 / std::tan(angleOf(m) / 2);
-  return {best, detail::scaled(
-                    detail::add(across, detail::scaled(detail::cross(best, across), cotangent)),
-                    0.5)};
+  return {best,
+          detail::scaled(
+              detail::add(across, detail::scaled(detail::cross(best, across), cotangent)), 0.5)};
 }
 
 bool
@@ -78,7 +78,7 @@ candidates(const ModelData& model, std::uint64_t seed)
   PoseParameters parameters;
   parameters.seed = seed;
   parameters.peaks = 8;
-  const Cluster itself{model.cells, {}, 0};
+  const Cluster itself{model.cells, {}, {}, 0};
   auto voted = proposals(model, model.cells, parameters);
   for (auto& p : voted)
     p.score = fitOf(model, itself, p.to_model, kReach).score;
@@ -164,8 +164,7 @@ RigidMotion
 inModelUnits(const ModelData& model, RigidMotion m)
 {
   const Vector3 scaled_shift = detail::scaled(m.translation, model.diameter);
-  m.translation =
-      detail::add(detail::subtract(model.centre, m.turned(model.centre)), scaled_shift);
+  m.translation = detail::add(detail::subtract(model.centre, m.turned(model.centre)), scaled_shift);
   return m;
 }
 
