@@ -319,12 +319,14 @@ addOptions(CommandLine& line, Options& o)
             o.limit, 0, 10);
   line.count("-least", "N", "present are objects of so many points, default 50", o.least, 1,
              1000000);
-  line.count("-references", "N", "cells whose pairs vote, default 40", o.pose.references, 1,
+  line.count("-references", "N", "cells whose pairs vote, default 24", o.pose.references, 1,
              100000);
   line.count("-partners", "N", "cells each is paired with, default 400", o.pose.partners, 1,
              100000);
   line.count("-peaks", "N", "poses that each reference proposes, default 3", o.pose.peaks, 1, 1000);
-  line.count("-refined", "N", "proposals refined, default 12", o.pose.refined, 1, 1000);
+  line.count("-cells", "N", "most cells of a cluster looked at, default 800", o.pose.final_cells,
+             50, 100000);
+  line.count("-refined", "N", "proposals refined, default 6", o.pose.refined, 1, 1000);
   line.real("-unseen_weight", "W", "of surface that sensors should see, default 0.3",
             o.pose.unseen_weight, 0, 1);
   line.flag("-verbose", "prints every pose to stderr", o.verbose);

@@ -107,15 +107,15 @@ struct PoseParameters {
   /** \brief Places of the sensors that made the scene, in its coordinates. Known, what a pose says
    * they should have seen and have not counts against it. Empty: unknown. */
   std::vector<std::array<double, 3>> viewpoints;
-  std::size_t references = 40;    ///< cells whose pairs vote, >= 1
-  std::size_t partners = 400;     ///< cells that each is paired with, >= 1
-  std::size_t peaks = 3;          ///< poses that each reference proposes, >= 1
-  std::size_t refined = 12;       ///< proposals that are refined, >= 1
-  std::size_t final_cells = 1500; ///< most cells of the cluster that are looked at, >= 50
-  double coarse_reach = 0.08;     ///< farthest distance that counts among proposals, in (0, 0.08]
-  double fine_reach = 0.03;       ///< the same at the end, in (0, coarse_reach]
-  double unseen_weight = 0.3;     ///< of surface not found, where viewpoints are known, in [0, 1]
-  double min_inliers = 0.3;       ///< least share of the cluster that lies on the model, in [0, 1]
+  std::size_t references = 24;   ///< cells whose pairs vote, >= 1
+  std::size_t partners = 400;    ///< cells that each is paired with, >= 1
+  std::size_t peaks = 3;         ///< poses that each reference proposes, >= 1
+  std::size_t refined = 6;       ///< proposals that are refined, >= 1
+  std::size_t final_cells = 800; ///< most cells of the cluster that are looked at, >= 50
+  double coarse_reach = 0.08;    ///< farthest distance that counts among proposals, in (0, 0.08]
+  double fine_reach = 0.03;      ///< the same at the end, in (0, coarse_reach]
+  double unseen_weight = 0.3;    ///< of surface not found, where viewpoints are known, in [0, 1]
+  double min_inliers = 0.3;      ///< least share of the cluster that lies on the model, in [0, 1]
   std::uint64_t seed = 1;
 };
 

@@ -12,6 +12,8 @@ namespace pose {
 namespace {
 
 constexpr std::size_t kScoringCells = 200; ///< by which proposals are compared
+constexpr double kEqual = 0.01;            ///< scores nearer than this do not decide
+constexpr std::size_t kMostPoints = 20000; ///< more add time and no precision
 constexpr double kFinalLeaf = 1.0 / 40;
 constexpr double kAlikeReach = 0.03,
                  kLooksAlike = 0.95; ///< share of the model on itself that no one can tell apart
@@ -64,20 +66,21 @@ usable(const SurfletSet& cluster)
   return out;
 }
 
-/** \brief The part of \p cluster within \p radius of the middle, where the model can be. */
+/** \brief At most \p most cells of the part of \p set within \p radius of the middle, where the
+ * model can be. */
 SurfletSet
-inUnits(const SurfletSet& cluster, const SceneFrame& frame, double radius)
+cellsAround(const SurfletSet& set, const SceneFrame& frame, double radius, std::size_t most)
 {
-  SurfletSet out;
-  out.reserve(cluster.size());
-  for (std::size_t i = 0; i < cluster.size(); ++i) {
-    const Vector3 p = frame.into(positionOf(cluster, i));
+  SurfletSet near;
+  near.reserve(set.size());
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    const Vector3 p = frame.into(positionOf(set, i));
     if (!(detail::dot(p, p) <= radius * radius))
       continue;
     const auto q = detail::toFloat3(p);
-    out.push_back({q[0], q[1], q[2], cluster.nx[i], cluster.ny[i], cluster.nz[i]});
+    near.push_back({q[0], q[1], q[2], set.nx[i], set.ny[i], set.nz[i]});
   }
-  return out;
+  return thinned(cellsByDirection(near, kFinalLeaf), most);
 }
 
 /** \brief Variance of the normals along their second principal direction, both signs alike: 0 if
@@ -140,9 +143,11 @@ public:
     for (unsigned round = 0; round < 2 && !best.empty(); ++round)
       tryTurns(best);
     const SurfletSet all = joined(cluster_.cells, cluster_.beside);
+    if (!best.empty())
+      best.insert(best.begin(), {middleOfEquals(best.front().to_model), 0});
     for (auto& p : best)
       p = settled(p.to_model, all, 2 * parameters_.fine_reach, 6);
-    return distinct(std::move(best), best.size());
+    return ranked(std::move(best));
   }
 
 private:
@@ -154,6 +159,42 @@ private:
                          parameters_.fine_reach, steps);
     p.score = fitOf(model_, cluster_, p.to_model, parameters_.fine_reach).score;
     return p;
+  }
+
+  /** \brief The first stays the first unless another one is clearly better. */
+  static std::vector<Proposal>
+  ranked(std::vector<Proposal> best)
+  {
+    if (best.empty())
+      return best;
+    best.front().score += kEqual;
+    const double first = best.front().score;
+    best = distinct(std::move(best), best.size());
+    if (best.front().score == first)
+      best.front().score -= kEqual;
+    return best;
+  }
+
+  /** \brief Of all turns that fit as well as \p best, the one in their middle: a hidden handle is
+   * somewhere in the shadow, and the middle of the shadow is the least wrong. */
+  RigidMotion
+  middleOfEquals(const RigidMotion& best) const
+  {
+    const double reach = 2 * parameters_.fine_reach;
+    const double least = fitOf(model_, cluster_, best, reach).score - kEqual;
+    std::vector<RigidMotion> equal = {best};
+    for (const auto& turn : model_.turns)
+      if (fitOf(model_, cluster_, turn.after(best), reach).score >= least)
+        equal.push_back(turn.after(best));
+    const auto spread = [&](const RigidMotion& from) {
+      double sum = 0;
+      for (const auto& m : equal)
+        sum += angleOf(m.after(from.inverse()));
+      return sum;
+    };
+    return *std::min_element(equal.begin(), equal.end(), [&](const auto& a, const auto& b) {
+      return spread(a) < spread(b) - 1e-9;
+    });
   }
 
   /** \brief Near symmetries of the best: only what disagrees with them can decide. */
@@ -185,7 +226,7 @@ marginOf(const ModelData& model, const std::vector<Proposal>& found)
   for (std::size_t k = 1; k < found.size(); ++k) {
     const RigidMotion between = found[k].to_model.after(found[0].to_model.inverse());
     if (selfShare(model, between, kAlikeReach) < kLooksAlike)
-      return found[0].score - found[k].score;
+      return std::max(0.0, found[0].score - found[k].score);
   }
   return found[0].score;
 }
@@ -245,12 +286,11 @@ estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PosePar
   using namespace pose;
   check(p);
   const ModelData& model = pose_model.data();
-  const SurfletSet points = usable(given);
+  const SurfletSet points = usable(thinned(given, kMostPoints));
   const SceneFrame frame = frameAround(points, model.diameter);
   Cluster cluster;
-  cluster.cells = thinned(cellsByDirection(inUnits(points, frame, 2), kFinalLeaf), p.final_cells);
-  cluster.beside =
-      thinned(cellsByDirection(inUnits(usable(beside), frame, 1), kFinalLeaf), p.final_cells);
+  cluster.cells = cellsAround(points, frame, 2, p.final_cells);
+  cluster.beside = cellsAround(usable(thinned(beside, kMostPoints)), frame, 1, p.final_cells);
   cluster.unseen_weight = p.unseen_weight;
   for (const auto& v : p.viewpoints)
     cluster.viewpoints.push_back(frame.into(v));
