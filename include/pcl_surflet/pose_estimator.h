@@ -118,8 +118,15 @@ PoseEstimator<PointT, PointNT>::estimate(const std::vector<SceneDetection>& dete
     return poses;
   std::vector<char> taken_points(this->input_->size(), 0);
   for (const auto& d : detections)
-    for (const auto i : d.indices)
-      taken_points.at(static_cast<std::size_t>(i)) = 1;
+    for (const auto i : d.indices) {
+      if (i < 0 || static_cast<std::size_t>(i) >= taken_points.size()) {
+        PCL_ERROR("[pcl_surflet::PoseEstimator::estimate] '%s' has a point outside the cloud: "
+                  "detections must be of this cloud.\n",
+                  d.label.c_str());
+        return poses;
+      }
+      taken_points[static_cast<std::size_t>(i)] = 1;
+    }
   std::vector<char> taken(all.surflets.size(), 0);
   for (std::size_t k = 0; k < taken.size(); ++k)
     taken[k] = taken_points[static_cast<std::size_t>(all.indices[k])];

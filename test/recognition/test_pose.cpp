@@ -41,8 +41,9 @@ someMotion(std::uint64_t seed)
 {
   CounterRandom random(seed);
   const double z = random.uniform(-1, 1), a = random.uniform(0, 2 * M_PI);
-  RigidMotion m = turnAbout({std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z},
-                            {0, 0, 0}, random.uniform(0.5, M_PI));
+  RigidMotion m =
+      turnAbout({std::sqrt(1 - z * z) * std::cos(a), std::sqrt(1 - z * z) * std::sin(a), z},
+                {0, 0, 0}, random.uniform(0.5, M_PI));
   m.translation = {random.uniform(-2, 2), random.uniform(-2, 2), random.uniform(-2, 2)};
   return m;
 }
@@ -125,8 +126,8 @@ TEST(RigidMotion, IsInvertedChainedAndWrittenAsQuaternion)
     const auto q = a.quaternion();
     const RigidMotion::Vector v{q[0], q[1], q[2]};
     const double sine = std::hypot(v[0], v[1], v[2]);
-    const RigidMotion again = turnAbout({v[0] / sine, v[1] / sine, v[2] / sine}, {0, 0, 0},
-                                        2 * std::atan2(sine, q[3]));
+    const RigidMotion again =
+        turnAbout({v[0] / sine, v[1] / sine, v[2] / sine}, {0, 0, 0}, 2 * std::atan2(sine, q[3]));
     for (std::size_t i = 0; i < 3; ++i) {
       EXPECT_NEAR(there[i], stepwise[i], 1e-12);
       EXPECT_NEAR(back[i], p[i], 1e-12);
@@ -247,9 +248,8 @@ TEST(Pose, WhatSensorsShouldSeeCounts)
 {
   // A cup without handle seen from its side: with the sensor known, the handle must be behind.
   const SurfletSet cup = sampled("cup", 2);
-  const auto front = kept(cup, [](const Surflet& s) {
-    return s.nx < -0.3 && std::hypot(s.x, s.y) > 0.038 && s.x < 0;
-  });
+  const auto front = kept(
+      cup, [](const Surflet& s) { return s.nx < -0.3 && std::hypot(s.x, s.y) > 0.038 && s.x < 0; });
   PoseParameters p;
   p.viewpoints = {{-1, 0, 0.05}};
   p.unseen_weight = 1;

@@ -169,7 +169,8 @@ private:
       return best;
     best.front().score += kEqual;
     const double first = best.front().score;
-    best = distinct(std::move(best), best.size());
+    const std::size_t all = best.size();
+    best = distinct(std::move(best), all);
     if (best.front().score == first)
       best.front().score -= kEqual;
     return best;
