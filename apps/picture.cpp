@@ -3,6 +3,7 @@
 #include "app_common.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -19,10 +20,12 @@ drawPicture(const std::string& labelled, const std::string& database, const std:
   const std::string viewer = (self.parent_path() / "pcl_surflet_view").string();
   const pid_t child = ::fork();
   if (child == 0) {
-    const char* arguments[] = {viewer.c_str(),   "-database", database.c_str(), "-picture",
-                               picture.c_str(),  "-overlay",  overlay.c_str(),  "--",
-                               labelled.c_str(), nullptr};
-    ::execv(viewer.c_str(), const_cast<char**>(arguments));
+    std::vector<const char*> arguments = {viewer.c_str(), "-database", database.c_str(), "-picture",
+                                          picture.c_str()};
+    if (!overlay.empty())
+      arguments.insert(arguments.end(), {"-overlay", overlay.c_str()});
+    arguments.insert(arguments.end(), {"--", labelled.c_str(), nullptr});
+    ::execv(viewer.c_str(), const_cast<char**>(arguments.data()));
     ::_exit(127);
   }
   int status = 0;
