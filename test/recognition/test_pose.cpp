@@ -164,6 +164,7 @@ TEST(Pose, YawOfTheCupIsDecidedByPointsBesideIt)
   const auto e = estimatePose(body, modelOf("cup"), {}, moved(kept(cup, far), truth));
   ASSERT_EQ(e.status, PoseStatus::Found) << e.reason;
   EXPECT_LT(farthest(cup, e.motion, truth), 0.03 * modelOf("cup").diameter());
+  EXPECT_GT(e.margin, 0.015) << "the handle is worth this much";
 }
 
 TEST(Pose, BodiesOfRevolutionAreFlaggedAndStandRight)
