@@ -3,6 +3,7 @@
 #include "app_common.h"
 #include "labelled_pcd.h"
 #include "picture.h"
+#include "poses.h"
 #include "scene_items.h"
 
 #include "pcl_surflet/scene_interpreter.h"
@@ -31,6 +32,7 @@ struct Options {
   double leaf = 0, distance = 0;
   std::uint64_t planes = 0, neighbours = 0, threads = 0, detections = 0, seed = 1;
   bool csv = false, verbose = false;
+  PoseJob pose;
 };
 
 SurfletSet
@@ -105,10 +107,13 @@ writeObjects(const std::string& path, const SurfletSet& scene,
 
 /** \brief A file that is gone with the object. */
 struct TemporaryFile {
-  std::string path = (std::filesystem::temp_directory_path() /
-                      ("pcl_surflet_interpret_" + std::to_string(::getpid()) + ".pcd"))
-                         .string();
-  TemporaryFile() = default;
+  std::string path;
+  explicit TemporaryFile(const std::string& what)
+      : path((std::filesystem::temp_directory_path() /
+              ("pcl_surflet_interpret_" + std::to_string(::getpid()) + what + ".pcd"))
+                 .string())
+  {
+  }
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   ~TemporaryFile()
@@ -120,18 +125,23 @@ struct TemporaryFile {
 
 void
 writeResults(const std::string& path, const SurfletSet& scene,
-             const std::vector<SceneDetection>& found, const Options& o)
+             const std::vector<SceneDetection>& found, const std::vector<PoseEstimate>& poses,
+             const Options& o)
 {
   if (!o.objects_dir.empty())
     writeObjects(path, scene, found, o.objects_dir);
   if (o.out.empty() && o.picture.empty())
     return;
   const PointLabels labels = labelsOf(scene.size(), found);
-  const TemporaryFile temporary;
+  const TemporaryFile temporary(""), overlay("_poses");
   const std::string labelled = o.out.empty() ? temporary.path : o.out;
   writeFile(labelled, asPcd(scene, &labels));
-  if (!o.picture.empty())
-    drawPicture(labelled, o.database, o.picture);
+  if (o.picture.empty())
+    return;
+  const SurfletSet surfaces = o.pose.surfaces(found, poses);
+  if (!surfaces.empty())
+    writeFile(overlay.path, asPcd(surfaces, nullptr));
+  drawPicture(labelled, o.database, o.picture, surfaces.empty() ? "" : overlay.path);
 }
 
 /** \brief Empty for what is unknown: NaN is no number of a table. */
@@ -142,29 +152,35 @@ numberOrNothing(double value)
 }
 
 void
-printCsv(const std::string& path, const SceneDetection& d)
+printCsv(const std::string& path, const SceneDetection& d, const PoseEstimate* pose)
 {
   std::string line =
       csvField(path) + "," + csvField(d.label) + "," + std::to_string(d.indices.size());
   for (const double v :
        {d.centroid[0], d.centroid[1], d.centroid[2], d.score, d.fit, d.confidence, d.coverage})
     line += "," + numberOrNothing(v);
+  if (pose != nullptr)
+    line += poseCsv(*pose);
   std::puts(line.c_str());
 }
 
 void
 print(const std::string& path, const std::vector<SceneDetection>& detections,
-      const SceneDiagnostics& diagnostics, bool csv)
+      const std::vector<PoseEstimate>& poses, const SceneDiagnostics& diagnostics, bool csv)
 {
-  for (const auto& d : detections) {
+  for (std::size_t k = 0; k < detections.size(); ++k) {
+    const auto& d = detections[k];
+    const PoseEstimate* pose = k < poses.size() ? &poses[k] : nullptr;
     if (csv) {
-      printCsv(path, d);
+      printCsv(path, d, pose);
       continue;
     }
     const auto& c = d.centroid;
     std::printf("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, confidence %4.2f", path.c_str(),
                 d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.confidence);
     std::printf(std::isnan(d.coverage) ? "\n" : ", coverage %4.2f\n", d.coverage);
+    if (pose != nullptr)
+      std::printf("%s: %-16s %s\n", path.c_str(), d.label.c_str(), poseText(*pose).c_str());
   }
   if (detections.empty() && !csv)
     std::printf("%s: nothing found: %s\n", path.c_str(), diagnostics.reason.c_str());
@@ -241,17 +257,19 @@ void
 interpret(const std::string& path, Interpreter& interpreter, const Options& o)
 {
   const SurfletSet scene = surfletsIn(path, o);
-  interpreter.setInputCloud(cloudOf(scene));
+  const Cloud::Ptr cloud = cloudOf(scene);
+  interpreter.setInputCloud(cloud);
   const auto found = interpreter.interpret();
   const auto& diagnostics = interpreter.getDiagnostics();
   if (diagnostics.status > SceneStatus::Cancelled)
     throw DataError(diagnostics.reason);
-  print(path, found, diagnostics, o.csv);
+  const auto poses = o.pose.estimate(cloud, found, o.seed);
+  print(path, found, poses, diagnostics, o.csv);
   if (o.verbose) {
     printScene(diagnostics);
     (o.method == Method::Explanation ? printExplanations : printSteps)(diagnostics);
   }
-  writeResults(path, scene, found, o);
+  writeResults(path, scene, found, poses, o);
 }
 
 /** \brief Goes on after a file that cannot be used. \return exit code */
@@ -261,7 +279,9 @@ interpretAll(const std::vector<std::string>& files, const Options& o)
   Interpreter interpreter = interpreterFor(readDatabase(o.database), o);
   int code = kOk;
   if (o.csv)
-    std::puts("file,label,points,x,y,z,score,fit,confidence,coverage");
+    std::puts(("file,label,points,x,y,z,score,fit,confidence,coverage" +
+               (o.pose.models.empty() ? "" : poseCsvHeader()))
+                  .c_str());
   for (const auto& path : files)
     try {
       interpret(path, interpreter, o);
@@ -297,8 +317,11 @@ addOptions(CommandLine& line, Options& o)
             "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
   line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
             o.objects_dir);
-  line.text("-picture", "OUT.png", "the scene with its objects coloured and named; one scene only",
+  line.text("-picture", "OUT.png",
+            "the scene with its objects coloured and named, and with -pose the models as dark "
+            "points; one scene only",
             o.picture);
+  o.pose.addOptions(line);
   line.flag("-csv", "prints CSV", o.csv);
   line.flag("-verbose", "prints what each step did for each model to stderr", o.verbose);
   addNeighbours(line, o.neighbours);
@@ -329,6 +352,9 @@ run(int argc, char** argv)
   line.require("-database");
   line.requireFiles(1, line.given("-out") || line.given("-picture") ? 1 : 1000000);
   checkBackground(line, o);
+  if (line.given("-viewpoints") && !line.given("-pose"))
+    throw UsageError("option -viewpoints goes with -pose");
+  o.pose.load();
   return interpretAll(line.files(), o);
 }
 

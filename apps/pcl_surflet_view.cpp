@@ -15,7 +15,7 @@ namespace {
 constexpr const char* kProgram = "pcl_surflet_view";
 
 struct Options {
-  std::string database, picture;
+  std::string database, picture, overlay;
   std::uint64_t width = 1000, height = 640;
   PictureOptions look;
 };
@@ -26,6 +26,8 @@ addOptions(CommandLine& line, Options& o)
   line.text("-database", "DB.pcd", "names of the labels, which are numbers in it, from 1",
             o.database);
   line.text("-picture", "OUT.png", "draws a picture instead of opening a window", o.picture);
+  line.text("-overlay", "CLOUD.pcd", "points drawn dark over the scene, such as posed models",
+            o.overlay);
   line.count("-width", "W", "pixels, default 1000", o.width, 16, 16384);
   line.count("-height", "H", "pixels, default 640", o.height, 16, 16384);
   line.real("-azimuth", "A", "eye about the vertical, degrees from +x, default -60", o.look.azimuth,
@@ -62,6 +64,8 @@ view(int argc, char** argv)
   o.look.width = static_cast<int>(o.width);
   o.look.height = static_cast<int>(o.height);
   const LabelledScene scene = readLabelledScene(line.files()[0]);
+  if (!o.overlay.empty())
+    o.look.overlay = readLabelledScene(o.overlay).points;
   const Names names = namesIn(o.database);
   std::unique_ptr<VirtualDisplay> own_display;
   if (!displayAnswers()) {

@@ -3,6 +3,7 @@
 #include "app_common.h"
 
 #include <filesystem>
+#include <vector>
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,15 +12,20 @@ namespace pcl_surflet {
 namespace apps {
 
 void
-drawPicture(const std::string& labelled, const std::string& database, const std::string& picture)
+drawPicture(const std::string& labelled, const std::string& database, const std::string& picture,
+            const std::string& overlay)
 {
   std::error_code failure;
   const auto self = std::filesystem::read_symlink("/proc/self/exe", failure);
   const std::string viewer = (self.parent_path() / "pcl_surflet_view").string();
   const pid_t child = ::fork();
   if (child == 0) {
-    ::execl(viewer.c_str(), viewer.c_str(), "-database", database.c_str(), "-picture",
-            picture.c_str(), "--", labelled.c_str(), static_cast<char*>(nullptr));
+    std::vector<const char*> arguments = {viewer.c_str(), "-database", database.c_str(), "-picture",
+                                          picture.c_str()};
+    if (!overlay.empty())
+      arguments.insert(arguments.end(), {"-overlay", overlay.c_str()});
+    arguments.insert(arguments.end(), {"--", labelled.c_str(), nullptr});
+    ::execv(viewer.c_str(), const_cast<char**>(arguments.data()));
     ::_exit(127);
   }
   int status = 0;

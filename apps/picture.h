@@ -8,10 +8,11 @@
 namespace pcl_surflet {
 namespace apps {
 
-/** \brief Has pcl_surflet_view, which lies beside this program, draw \p labelled to \p picture.
+/** \brief Has pcl_surflet_view, which lies beside this program, draw \p labelled to \p picture, and
+ * over it the points of the file \p overlay, unless it is empty.
  * \throws DataError if it cannot be run or fails; it has said why */
 void drawPicture(const std::string& labelled, const std::string& database,
-                 const std::string& picture);
+                 const std::string& picture, const std::string& overlay = "");
 
 } // namespace apps
 } // namespace pcl_surflet

@@ -196,6 +196,28 @@ placeEye(const pcl::PointCloud<pcl::PointXYZRGB>& cloud, const PictureOptions& o
   viewer.setCameraClipDistances(distance / 100, 3 * distance);
 }
 
+/** \brief Drawn a little nearer to the eye than they are, so that what they lie on does not hide
+ * them. */
+void
+addOverlay(const PictureOptions& o, pcl::visualization::PCLVisualizer& viewer)
+{
+  constexpr float kNearer = 0.01F, kDark = 0.1F;
+  Eigen::Vector4f low, high;
+  pcl::getMinMax3D(o.overlay, low, high);
+  const Eigen::Vector3f shift =
+      kNearer * (high - low).head<3>().norm() * eyeDirection(o).cast<float>();
+  pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+  for (const auto& p : o.overlay) {
+    const Eigen::Vector3f at = p.getVector3fMap() + shift;
+    points->push_back({at.x(), at.y(), at.z()});
+  }
+  viewer.addPointCloud(points, "overlay");
+  viewer.setPointCloudRenderingProperties(pcl::visualization::PCL_VISUALIZER_COLOR, kDark, kDark,
+                                          kDark, "overlay");
+  viewer.setPointCloudRenderingProperties(pcl::visualization::PCL_VISUALIZER_POINT_SIZE,
+                                          o.point + 1, "overlay");
+}
+
 void
 fill(const LabelledScene& scene, const Names& names, const PictureOptions& o,
      pcl::visualization::PCLVisualizer& viewer)
@@ -206,6 +228,8 @@ fill(const LabelledScene& scene, const Names& names, const PictureOptions& o,
   viewer.addPointCloud(cloud, "scene");
   viewer.setPointCloudRenderingProperties(pcl::visualization::PCL_VISUALIZER_POINT_SIZE, o.point,
                                           "scene");
+  if (!o.overlay.empty())
+    addOverlay(o, viewer);
   placeEye(*cloud, o, viewer);
   auto* renderer = viewer.getRendererCollection()->GetFirstRenderer();
   for (const auto& caption : captionsOf(scene, Directions(o).up))

@@ -17,6 +17,7 @@ struct PictureOptions {
   double elevation = 35;          ///< of the eye above the horizon, degrees
   double zoom = 1;                ///< larger: nearer
   double point = 2;               ///< size of a point, pixels
+  pcl::PointCloud<pcl::PointXYZLNormal> overlay; ///< drawn dark over the scene
 };
 
 /** \brief Name of label i + 1; labels without one are called by their number. */

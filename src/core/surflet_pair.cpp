@@ -43,6 +43,13 @@ originIsSecond(double a, double b)
 std::optional<PairFeature>
 computePairFeature(const Surflet& s1, const Surflet& s2)
 {
+  bool ignored = false;
+  return computePairFeature(s1, s2, ignored);
+}
+
+std::optional<PairFeature>
+computePairFeature(const Surflet& s1, const Surflet& s2, bool& origin_is_second)
+{
   Vec3 p1{s1.x, s1.y, s1.z}, n1{s1.nx, s1.ny, s1.nz};
   Vec3 p2{s2.x, s2.y, s2.z}, n2{s2.nx, s2.ny, s2.nz};
   Vec3 d = p2 - p1;
@@ -50,7 +57,8 @@ computePairFeature(const Surflet& s1, const Surflet& s2)
   if (!(length > 0) || !std::isfinite(length) || !std::isfinite(dot(n1, n1) + dot(n2, n2)))
     return std::nullopt;
 
-  if (originIsSecond(dot(n1, d), dot(n2, d))) {
+  const bool swap = originIsSecond(dot(n1, d), dot(n2, d));
+  if (swap) {
     std::swap(n1, n2);
     d = p1 - p2;
   }
@@ -63,6 +71,7 @@ computePairFeature(const Surflet& s1, const Surflet& s2)
     c /= std::sqrt(v_squared);
   const Vec3 w = cross(u, v); // Eq. 2.5
 
+  origin_is_second = swap;
   PairFeature f;
   f.alpha = std::atan2(dot(w, n2), dot(u, n2)); // Eq. 2.6
   if (f.alpha >= M_PI)

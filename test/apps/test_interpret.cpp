@@ -68,6 +68,51 @@ TEST_F(Interpret, FindsTheTableItselfAndWritesTheObjects)
   }
 }
 
+TEST_F(Interpret, EstimatesPoses)
+{
+  ASSERT_EQ(run("generate", {"-out", path("ignored.pcd"), "-models", path("meshes"), "-density",
+                             "1000", "bottle", "torus"})
+                .code,
+            0);
+  const AppRun r = run("interpret", {"-database", path("db.pcd"), "-background", "exclude",
+                                     "-empty", path("e.pcd"), "-leaf", "0.008", "-csv", "-pose",
+                                     path("meshes"), "-viewpoints", "0,0,2:1,0,1", path("s.pcd")});
+  ASSERT_TRUE(ended(r, 0, {}));
+  const auto table = parseCsv(r.out);
+  const auto truth = parseCsv(readFile(path("p.csv")));
+  ASSERT_EQ(table.size(), 3u);
+  ASSERT_EQ(table[0].size(), 26u);
+  EXPECT_EQ(table[0][10], "tx");
+  for (std::size_t row = 1; row < 3; ++row) {
+    ASSERT_EQ(table[row].size(), 26u);
+    const auto& item = truth[table[row][1] == "bottle" ? 1 : 2];
+    // Both stand upright: the origin is where the truth has it, the axis is the vertical.
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(std::stod(table[row][10 + axis]), std::stod(item[7 + 4 * axis]), 0.005);
+    EXPECT_EQ(table[row][21], "continuous") << table[row][1];
+    EXPECT_NEAR(std::abs(std::stod(table[row][25])), 1, 0.01) << "axis z";
+    EXPECT_GT(std::stod(table[row][18]), 0.7) << "inliers";
+  }
+  const AppRun text =
+      run("interpret", {"-database", path("db.pcd"), "-background", "exclude", "-empty",
+                        path("e.pcd"), "-leaf", "0.008", "-pose", path("meshes"), path("s.pcd")});
+  EXPECT_TRUE(ended(text, 0, {}));
+  EXPECT_NE(text.out.find("look alike"), std::string::npos) << text.out;
+}
+
+TEST_F(Interpret, RefusesPosesWithoutModels)
+{
+  EXPECT_TRUE(ended(
+      run("interpret", {"-database", path("db.pcd"), "-pose", path("nowhere"), path("s.pcd")}), 2,
+      {"nowhere"}));
+  EXPECT_TRUE(
+      ended(run("interpret", {"-database", path("db.pcd"), "-viewpoints", "0,0,1", path("s.pcd")}),
+            1, {"-viewpoints", "-pose"}));
+  EXPECT_TRUE(ended(run("interpret", {"-database", path("db.pcd"), "-pose", path(""), "-viewpoints",
+                                      "0,0", path("s.pcd")}),
+                    1, {"-viewpoints"}));
+}
+
 TEST_F(Interpret, SaysWhyNothingIsFound)
 {
   const AppRun r = run("interpret", {"-database", path("db.pcd"), "-background", "exclude",

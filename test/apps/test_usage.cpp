@@ -5,9 +5,9 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train",      "classify",  "feature",        "info",
-                             "reduce",     "generate",  "generate_shape", "evaluate",
-                             "experiment", "interpret", "view",           "search"};
+const char* const kApps[] = {
+    "train",    "classify",   "feature",   "info", "reduce", "generate",     "generate_shape",
+    "evaluate", "experiment", "interpret", "view", "search", "evaluate_pose"};
 
 struct WrongLine {
   const char* app;
@@ -64,9 +64,11 @@ TEST(Usage, HelpNamesEveryOption)
         "-critical", "-scaling",   "-times",      "-extra",   "classic_vfh"}},
       {"interpret",
        {"-database", "-method", "-background", "-empty", "-planes", "-distance", "-leaf", "-max",
-        "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads"}},
+        "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads", "-pose",
+        "-viewpoints"}},
       {"view",
-       {"-database", "-picture", "-width", "-height", "-azimuth", "-elevation", "-zoom", "-point"}},
+       {"-database", "-picture", "-width", "-height", "-azimuth", "-elevation", "-zoom", "-point",
+        "-overlay"}},
       {"generate",
        {"-out", "-poses", "-empty", "-models", "-present", "-clutter", "-unknown", "-background",
         "-size", "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise",

@@ -38,4 +38,9 @@ constexpr double kCollinearityTolerance = 1e-6;
  * connecting line, or a coordinate or normal that is not finite. */
 PCL_SURFLET_API std::optional<PairFeature> computePairFeature(const Surflet& s1, const Surflet& s2);
 
+/** \brief The same; \p origin_is_second tells whether Eq. 2.2 made \p s2 the origin: what a pose is
+ * made from needs the frame, not only the feature. Unchanged for a pair without feature. */
+PCL_SURFLET_API std::optional<PairFeature> computePairFeature(const Surflet& s1, const Surflet& s2,
+                                                              bool& origin_is_second);
+
 } // namespace pcl_surflet
