@@ -25,7 +25,8 @@ SurfletSet seenBackground(SceneOptions options, const Sensing& sensing);
 
 /** \brief An object alone as models are trained from it: a sensor looks from 24 places, not from
  * below if objects stand upright [Wahl 2007, Sec. 5.5.3]. \p posture is that of the scenes. */
-SurfletSet sensedAlone(const SceneItem& item, const SceneSensing& sensing, Posture posture);
+std::vector<OrientedScan> scansAlone(const SceneItem& item, const SceneSensing& sensing,
+                                     Posture posture);
 
 /** \brief How many of \p items are present in scene \p seed, where each is so with this
  * probability. */

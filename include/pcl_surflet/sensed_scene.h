@@ -43,6 +43,10 @@ PCL_SURFLET_API Scene sensedScene(const Scene& scene, const std::vector<Oriented
 /** \brief The same where there is nothing but one object, or background: points of all scans. */
 PCL_SURFLET_API SurfletSet sensedSurflets(const std::vector<OrientedScan>& scans);
 
+/** \brief The scans of senseAlone(). */
+PCL_SURFLET_API std::vector<OrientedScan>
+scansAlone(const SceneItem& item, const SceneSensing& sensing, std::uint64_t seed);
+
 /** \brief An object alone, as it stands, on something that the sensor does not see: what models are
  * trained from [Wahl 2007, Sec. 5.5.3]. The sensors look at the middle of its bounding box; those
  * of a ring do not see its bottom. \throws std::invalid_argument as senseViews() */

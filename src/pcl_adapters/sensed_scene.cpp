@@ -142,8 +142,8 @@ sensedSurflets(const std::vector<OrientedScan>& scans)
   return out;
 }
 
-SurfletSet
-senseAlone(const SceneItem& item, const SceneSensing& sensing, std::uint64_t seed)
+std::vector<OrientedScan>
+scansAlone(const SceneItem& item, const SceneSensing& sensing, std::uint64_t seed)
 {
   const std::vector<SensedBody> bodies = {{item.mesh(), 1, 1}};
   std::array<float, 3> low, high;
@@ -156,7 +156,13 @@ senseAlone(const SceneItem& item, const SceneSensing& sensing, std::uint64_t see
   SceneSensing alone = sensing;
   for (std::size_t k = 0; k < 3; ++k)
     alone.views.target[k] = 0.5 * (static_cast<double>(low[k]) + high[k]);
-  return sensedSurflets(senseViews(bodies, alone, seed));
+  return senseViews(bodies, alone, seed);
+}
+
+SurfletSet
+senseAlone(const SceneItem& item, const SceneSensing& sensing, std::uint64_t seed)
+{
+  return sensedSurflets(scansAlone(item, sensing, seed));
 }
 
 } // namespace pcl_surflet

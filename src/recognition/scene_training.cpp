@@ -87,6 +87,24 @@ orientationsOf(const SurfletSet& surflets, double leaf, std::uint64_t seed)
   return all;
 }
 
+/** \brief Lets all settle. \return mean number of cells that support the model
+ * \throws TrainingError if there are too few in any orientation */
+double
+settleAll(const HistogramModel& model, const std::string& label, std::vector<Orientation>& all,
+          unsigned threads)
+{
+  parallelFor(all.size(), threads, [&](std::size_t k, unsigned) { settleSupport(model, all[k]); });
+  double cells = 0;
+  for (const auto& o : all) {
+    if (o.support.size() < kFewestCells)
+      throw TrainingError("'" + label + "': only " + std::to_string(o.support.size()) + " of " +
+                          std::to_string(o.cells.size()) +
+                          " cells support a model; take smaller cells");
+    cells += static_cast<double>(o.support.size()) / kOrientations;
+  }
+  return cells;
+}
+
 } // namespace
 
 HistogramModel
@@ -101,20 +119,25 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
   member.histogram = meanHistogram(all, model, seed, threads, member.features);
   double cells = 0;
   for (unsigned round = 0; round < kRounds; ++round) {
-    parallelFor(all.size(), threads,
-                [&](std::size_t k, unsigned) { settleSupport(model, all[k]); });
-    cells = 0;
-    for (const auto& o : all) {
-      if (o.support.size() < kFewestCells)
-        throw TrainingError("'" + label + "': only " + std::to_string(o.support.size()) + " of " +
-                            std::to_string(o.cells.size()) +
-                            " cells support a model; take smaller cells");
-      cells += static_cast<double>(o.support.size()) / kOrientations;
-    }
+    cells = settleAll(model, label, all, threads);
     member.histogram = meanHistogram(all, model, seed, threads, member.features);
   }
   model.surface_area = cells * leaf * leaf / interpretation::kCellsOfArea;
   return model;
+}
+
+void
+addView(HistogramModel& model, const std::string& condition, const SurfletSet& seen, double leaf,
+        std::uint64_t seed, unsigned threads)
+{
+  if (model.members.empty())
+    throw std::invalid_argument("pcl_surflet: a view needs a model of the whole object");
+  auto all = orientationsOf(seen, leaf, seed);
+  settleAll(model, model.label + "', '" + condition, all, threads);
+  ModelMember member;
+  member.condition = condition;
+  member.histogram = meanHistogram(all, model, seed, threads, member.features);
+  model.members.push_back(std::move(member));
 }
 
 } // namespace pcl_surflet

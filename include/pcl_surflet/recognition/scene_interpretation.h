@@ -134,7 +134,10 @@ struct Detection {
    * other model, on the regrouped surflets; at least 0 if nothing was merged in step 7. */
   double score = 0;
   std::size_t seeds = 0; ///< merged cluster seeds, n_C; 0 by explanation
-  double fit = 0;   ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
+  double fit = 0; ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
+  /** \brief By explanation: the member of the model that fits best. With members for views (addView())
+   * it tells from where the object was seen. */
+  std::size_t member = 0;
   double votes = 1; ///< share of the runs that found it, in (0, 1]; see AccumulationParameters
 };
 

@@ -26,4 +26,19 @@ PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& train
                                               double leaf, std::uint64_t seed = 1,
                                               unsigned threads = 0);
 
+/** \brief Adds to a model from trainForScenes() what a sensor sees of the object from one place, or
+ * from several together, as a further member. An explanation fits as well as its best member.
+ *
+ * A sensor on one side of a scene shows half of an object, which the histogram of the whole does
+ * not fit. What is seen is reduced and cleared of cells that do not support the complete model,
+ * like the object itself.
+ *
+ * \param condition names the view, e.g. "seen from 30 degrees"; at most 63 bytes
+ * \param seen surflets of what is seen, several to a cell; other parameters as in trainForScenes()
+ * \throws TrainingError if fewer than 30 cells support the model; then nothing is added
+ * \throws std::invalid_argument for an unusable leaf, or a model without members */
+PCL_SURFLET_API void addView(HistogramModel& model, const std::string& condition,
+                             const SurfletSet& seen, double leaf, std::uint64_t seed = 1,
+                             unsigned threads = 0);
+
 } // namespace pcl_surflet

@@ -42,10 +42,12 @@ void
 judge(Explaining& work, Explanation& e)
 {
   const auto& p = work.parameters;
-  e.fit = e.cells.size() < p.steps.min_cluster
-              ? 0
-              : fitOf(work.scene, work.scene.models.all[e.model], e.cells, p.features,
-                      p.steps.seed ^ kFitStream);
+  Overlap overlap;
+  if (e.cells.size() >= p.steps.min_cluster)
+    overlap = fitOf(work.scene, work.scene.models.all[e.model], e.cells, p.features,
+                    p.steps.seed ^ kFitStream);
+  e.fit = overlap.share;
+  e.member = overlap.member;
 }
 
 void

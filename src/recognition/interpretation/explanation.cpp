@@ -16,6 +16,9 @@ namespace {
 constexpr double kLeastRoughFit = 0.45;
 constexpr double kBackgroundKnown = 0.1; ///< share of the work, about
 constexpr unsigned kSettlings = 2;
+/** \brief Share of its surface that a view of an object shows, about, where models have members
+ * for views. */
+constexpr double kSeenShare = 0.4;
 /** \brief One cell of so many is asked at first: their core is enough to ask all. */
 constexpr std::size_t kFirstCompletion = 4;
 constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
@@ -87,7 +90,9 @@ detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
   d.centroid = centroidOf(scene.cells, e.cells);
   d.score = scoreOf(scene, e, seed);
   d.fit = e.fit;
+  d.member = e.member;
   d.cells = std::move(e.cells);
+  std::sort(d.cells.begin(), d.cells.end());
   return d;
 }
 
@@ -99,6 +104,16 @@ countDetections(SceneInterpretation& result)
     ++result.diagnostics.models[d.model].detections;
   for (auto& m : result.diagnostics.models)
     m.lost = m.explanations - m.died_fit - m.detections;
+}
+
+/** \brief Of all that may be seen of it at once; 0 if unknown. */
+double
+expectedCells(const HistogramModel& model, double leaf)
+{
+  if (!(leaf > 0))
+    return 0;
+  const double seen = model.members.size() > 1 ? kSeenShare : 1;
+  return seen * kCellsOfArea * model.surface_area / (leaf * leaf);
 }
 
 } // namespace
@@ -169,7 +184,7 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   SceneModels models = sceneModels(database, modelled, source.scale());
   checkModels(models, p.steps);
   for (auto& m : models.all)
-    m.expected_cells = p.leaf > 0 ? kCellsOfArea * m.model->surface_area / (p.leaf * p.leaf) : 0;
+    m.expected_cells = expectedCells(*m.model, p.leaf);
   const SceneData scene{cells, source, models};
   SceneInterpretation result;
   result.diagnostics = emptyDiagnostics(database);
@@ -190,6 +205,8 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
     return result;
   for (auto& e : chosen)
     result.detections.push_back(detectionOf(scene, std::move(e), p.steps.seed));
+  std::stable_sort(result.detections.begin(), result.detections.end(),
+                   [](const auto& a, const auto& b) { return a.model < b.model; });
   countDetections(result);
   return result;
 }

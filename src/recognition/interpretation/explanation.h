@@ -14,7 +14,8 @@ struct Explanation {
   Centre centre{};
   std::vector<CellSupport> supported; ///< all cells that support it, whoever owns them
   Indices cells;                      ///< those of them that are its own, ascending
-  double fit = 0;                     ///< intersection of the cells' histogram with the model's
+  double fit = 0;                     ///< overlap of the cells' histogram with the model's
+  std::size_t member = 0;             ///< of the model, which overlaps most
 };
 
 /** \brief What the parts of one interpretation share. */

@@ -78,11 +78,15 @@ sceneModel(const HistogramModel& model, double h_min, double scale,
 {
   SceneModel m;
   m.model = &model;
-  // Further members are for conditions that a complete scene does not have.
+  // Pairs are judged by the complete object: what a sensor sees of it is a part.
   const auto& complete = model.members.front().histogram;
   const Histogram raw(complete.begin(), complete.end());
   const Histogram penalised = penalize(raw, h_min);
   m.h.assign(raw.begin(), raw.end());
+  for (const auto& member : model.members) {
+    m.members.push_back(member.histogram);
+    m.members.back().resize((raw.size() + kOverlapBlock - 1) / kOverlapBlock * kOverlapBlock, 0.f);
+  }
   for (const double v : penalised) {
     m.log_h.push_back(static_cast<float>(std::log(v)));
     m.expected_log += v * std::log(v);
@@ -98,6 +102,26 @@ sceneModel(const HistogramModel& model, double h_min, double scale,
   m.angular_bins = static_cast<std::uint32_t>(model.resolution.angularBins());
   fillSupport(penalised, chance, scale, m);
   return m;
+}
+
+Overlap
+bestOverlap(const SceneModel& model, const std::vector<float>& histogram)
+{
+  Overlap best;
+  for (std::size_t k = 0; k < model.members.size(); ++k) {
+    const float* a = model.members[k].data();
+    const float* b = histogram.data();
+    float lanes[kOverlapBlock] = {}; // so the compiler may use vectors of any width
+    for (std::size_t i = 0; i < histogram.size(); i += kOverlapBlock)
+      for (std::size_t l = 0; l < kOverlapBlock; ++l)
+        lanes[l] += std::min(a[i + l], b[i + l]);
+    double share = 0;
+    for (const float lane : lanes)
+      share += lane;
+    if (share > best.share)
+      best = {share, k};
+  }
+  return best;
 }
 
 SceneModels

@@ -26,7 +26,9 @@ constexpr float kMostSupport = 3; ///< limit of a pair's support, nats
 struct SceneModel {
   std::size_t index = 0; ///< in the database
   const HistogramModel* model = nullptr;
-  std::vector<float> h;     ///< H(b) without penalty
+  std::vector<float> h; ///< H(b) without penalty, of the first member: the complete object
+  /** \brief H(b) of all members, padded with zeros to whole blocks for bestOverlap(). */
+  std::vector<std::vector<float>> members;
   std::vector<float> log_h; ///< ln of the penalised H(b) [Wahl 2007, Eq. 3.21, 3.22]
   /** \brief Penalised H(b) per width of the delta intervals in the scene's unit scale: what is
    * comparable among models of different size. */
@@ -102,6 +104,18 @@ struct SceneModels {
   double largest_delta = 0; ///< delta_max of the largest object
   float log_h_min = 0;      ///< ln of the penalty, the likelihood of what a model cannot have
 };
+
+/** \brief Bins that bestOverlap() takes at a time. */
+constexpr std::size_t kOverlapBlock = 16;
+
+/** \brief How much a histogram overlaps with that of the most similar member. */
+struct Overlap {
+  double share = 0; ///< intersection [Wahl 2007, Eq. 3.7], in [0, 1]
+  std::size_t member = 0;
+};
+
+/** \param histogram of sum 1, padded like SceneModel::members */
+Overlap bestOverlap(const SceneModel& model, const std::vector<float>& histogram);
 
 /** \brief Distribution of the angles of two surflets at random places with random normals. */
 std::vector<float> chanceAngles(const Resolution& resolution);

@@ -111,9 +111,10 @@ settleWeights(const std::vector<float>& ratio, std::vector<float>& weight,
   }
 }
 
-/** \brief Intersection of the model's histogram with that of the counted indices. */
+/** \brief Overlap of the model with the histogram of the counted indices. */
 double
-intersection(const SceneModel& model, const std::vector<std::uint32_t>& counts)
+overlapOfCounts(const SceneModel& model, const std::vector<std::uint32_t>& counts,
+                std::vector<float>& histogram)
 {
   const std::size_t bins = model.angular_bins, row = bins + 1;
   std::uint64_t total = 0;
@@ -123,20 +124,18 @@ intersection(const SceneModel& model, const std::vector<std::uint32_t>& counts)
   if (total == 0)
     return 0;
   const float share = 1 / static_cast<float>(total);
-  double sum = 0;
-  for (std::size_t k = 0; k * bins < model.h.size(); ++k) {
-    const float* h = model.h.data() + k * bins;
-    const std::uint32_t* n = counts.data() + k * row;
+  histogram.assign(model.members.front().size(), 0.f);
+  for (std::size_t k = 0; k * bins < model.h.size(); ++k)
     for (std::size_t a = 0; a < bins; ++a)
-      sum += std::min(h[a], share * static_cast<float>(n[a]));
-  }
-  return sum;
+      histogram[k * bins + a] = share * static_cast<float>(counts[k * row + a]);
+  return bestOverlap(model, histogram).share;
 }
 
 /** \brief Fit of the few pairs within the core. */
 double
 roughFit(const SceneModel& model, const std::vector<std::uint32_t>& index,
-         const std::vector<float>& weight, std::vector<std::uint32_t>& counts)
+         const std::vector<float>& weight, std::vector<std::uint32_t>& counts,
+         std::vector<float>& histogram)
 {
   counts.assign(model.support.size(), 0);
   std::size_t pair = 0;
@@ -144,7 +143,7 @@ roughFit(const SceneModel& model, const std::vector<std::uint32_t>& index,
     if (weight[i] > 0.5f)
       for (std::size_t j = 0; j < i; ++j)
         counts[index[pair + j]] += weight[j] > 0.5f ? 1 : 0;
-  return intersection(model, counts);
+  return overlapOfCounts(model, counts, histogram);
 }
 
 /** \brief Lays cells of \p core out in windows of \p probes, each spread evenly over it.
@@ -290,7 +289,7 @@ segment(const SceneData& scene, std::size_t model_index, const Centre& centre, d
   s.model = model_index;
   // Most segments are hopeless without it.
   if (s.core.size() > 2 && s.support > 0 && s.cells >= kLeastCoverage * model.expected_cells)
-    s.rough_fit = roughFit(model, m.index, m.weight, m.counts);
+    s.rough_fit = roughFit(model, m.index, m.weight, m.counts, m.histogram);
   return s;
 }
 
@@ -320,18 +319,18 @@ supportOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
   }
 }
 
-double
+Overlap
 fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells, std::uint64_t features,
       std::uint64_t seed)
 {
   const PairSource source(scene.cells.subset(cells));
   const auto counted = countStreamedPairs(source, scene.models.resolution, model.model->delta_max,
                                           features, seed, 1);
+  std::vector<float> histogram(model.members.front().size(), 0.f);
   const auto total = static_cast<double>(counted.features);
-  double sum = 0;
-  for (std::size_t b = 0; b < model.h.size() && total > 0; ++b)
-    sum += std::min<double>(model.h[b], static_cast<double>(counted.counts[b]) / total);
-  return sum;
+  for (std::size_t b = 0; b < counted.counts.size() && total > 0; ++b)
+    histogram[b] = static_cast<float>(static_cast<double>(counted.counts[b]) / total);
+  return bestOverlap(model, histogram);
 }
 
 } // namespace interpretation

@@ -31,7 +31,7 @@ struct SupportMemory {
   PairRows rows;
   std::vector<std::uint32_t> index;
   std::vector<std::uint32_t> column;
-  std::vector<float> delta, ratio, weight, support;
+  std::vector<float> delta, ratio, weight, support, histogram;
   std::vector<std::uint32_t> counts;
   PairFeatures features;
   Indices partners;
@@ -92,9 +92,8 @@ void supportOf(const SceneData& scene, const SceneModel& model, const Indices& c
                const Indices& core, unsigned probes, SupportMemory& memory,
                std::vector<CellSupport>& out);
 
-/** \brief Intersection of the histogram of \p cells, from \p features random pairs, with that of
- * the model [Wahl 2007, Eq. 3.7]. */
-double fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
+/** \brief Overlap of the histogram of \p cells, from \p features random pairs, with the model. */
+Overlap fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
              std::uint64_t features, std::uint64_t seed);
 
 } // namespace interpretation
