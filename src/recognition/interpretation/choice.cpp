@@ -27,9 +27,9 @@ public:
   {
   }
 
-  /** \brief Every cell goes to the explanation that it supports most; fits are computed anew where
-   * cells changed, everywhere if \p all. */
-  void divide(std::vector<Explanation>& set, bool all);
+  /** \brief Every cell goes to the explanation that it supports most. The first \p active get their
+   * cells, and new fits where these changed, everywhere if \p all; the others only compete. */
+  void divide(std::vector<Explanation>& set, std::size_t active, bool all);
 
 private:
   static constexpr std::uint32_t kNobody = ~std::uint32_t{0};
@@ -51,7 +51,7 @@ judge(Explaining& work, Explanation& e)
 }
 
 void
-Division::divide(std::vector<Explanation>& set, bool all)
+Division::divide(std::vector<Explanation>& set, std::size_t active, bool all)
 {
   for (std::uint32_t k = 0; k < set.size(); ++k)
     for (const auto& s : set[k].supported)
@@ -60,7 +60,7 @@ Division::divide(std::vector<Explanation>& set, bool all)
         owner_[s.cell] = k;
       }
   std::vector<std::size_t> changed;
-  for (std::uint32_t k = 0; k < set.size(); ++k) {
+  for (std::uint32_t k = 0; k < active; ++k) {
     Indices own;
     for (const auto& s : set[k].supported)
       if (owner_[s.cell] == k)
@@ -96,8 +96,12 @@ public:
   std::vector<char> taken(std::size_t but = ~std::size_t{0}) const;
 
 private:
-  double value(const std::vector<Explanation>& set) const;
-  bool takeIfBetter(std::vector<Explanation> trial);
+  static constexpr std::size_t kNone = ~std::size_t{0};
+  double worth(const Explanation& e) const;
+  double value() const;
+  std::vector<std::size_t> meeting(const std::vector<const Explanation*>& set,
+                                   std::size_t but) const;
+  bool change(const Explanation* added, std::size_t removed, bool if_better);
   bool isAlone(const Explanation& e) const;
   std::vector<Segment> rivalsOf(const Explanation& e, const std::vector<Segment>& all) const;
 
@@ -107,22 +111,69 @@ private:
 };
 
 double
-Choice::value(const std::vector<Explanation>& set) const
+Choice::worth(const Explanation& e) const
+{
+  return e.cells.size() < work_.parameters.steps.min_cluster
+             ? 0
+             : static_cast<double>(e.cells.size()) * (e.fit - work_.parameters.junk_fit);
+}
+
+double
+Choice::value() const
 {
   double sum = 0;
-  for (const auto& e : set)
-    if (e.cells.size() >= work_.parameters.steps.min_cluster)
-      sum += static_cast<double>(e.cells.size()) * (e.fit - work_.parameters.junk_fit);
+  for (const auto& e : chosen_)
+    sum += worth(e);
   return sum;
 }
 
-bool
-Choice::takeIfBetter(std::vector<Explanation> trial)
+/** \brief Numbers of the chosen that may share cells with one of \p set, ascending. */
+std::vector<std::size_t>
+Choice::meeting(const std::vector<const Explanation*>& set, std::size_t but) const
 {
-  division_.divide(trial, false);
-  if (value(trial) <= value(chosen_))
+  std::vector<std::size_t> found;
+  for (std::size_t k = 0; k < chosen_.size(); ++k)
+    if (k != but && std::any_of(set.begin(), set.end(), [&](const Explanation* e) {
+          return distance(e->centre, chosen_[k].centre) <= e->reach + chosen_[k].reach;
+        }))
+      found.push_back(k);
+  return found;
+}
+
+/** \brief Adds an explanation, or removes one, and divides the cells anew: unless the sum of worths
+ * does not grow, if that is asked. \return whether it was done
+ *
+ * What shares no cells with it does not change. What shares some may lose them or get them back;
+ * what shares cells with these takes part in the division, but cannot change either. */
+bool
+Choice::change(const Explanation* added, std::size_t removed, bool if_better)
+{
+  const auto near = meeting({added != nullptr ? added : &chosen_[removed]}, removed);
+  std::vector<const Explanation*> affected;
+  std::vector<Explanation> trial;
+  double gain = removed != kNone ? -worth(chosen_[removed]) : 0;
+  for (const auto k : near) {
+    affected.push_back(&chosen_[k]);
+    trial.push_back(chosen_[k]);
+    gain -= worth(chosen_[k]);
+  }
+  if (added != nullptr)
+    trial.push_back(*added);
+  const std::size_t active = trial.size();
+  for (const auto k : meeting(affected, removed))
+    if (!std::binary_search(near.begin(), near.end(), k))
+      trial.push_back(chosen_[k]);
+  division_.divide(trial, active, false);
+  for (std::size_t i = 0; i < active; ++i)
+    gain += worth(trial[i]);
+  if (if_better && gain <= 0)
     return false;
-  chosen_ = std::move(trial);
+  for (std::size_t i = 0; i < near.size(); ++i)
+    chosen_[near[i]] = std::move(trial[i]);
+  if (added != nullptr)
+    chosen_.push_back(std::move(trial[active - 1]));
+  if (removed != kNone)
+    chosen_.erase(chosen_.begin() + static_cast<std::ptrdiff_t>(removed));
   return true;
 }
 
@@ -130,17 +181,8 @@ Choice::takeIfBetter(std::vector<Explanation> trial)
 void
 Choice::dropWorthless(double least_fit)
 {
-  for (std::size_t k = 0; k < chosen_.size();) {
-    auto trial = chosen_;
-    trial.erase(trial.begin() + static_cast<std::ptrdiff_t>(k));
-    if (chosen_[k].fit < least_fit) {
-      division_.divide(trial, false);
-      chosen_ = std::move(trial);
-      k = 0;
-    }
-    else
-      k = takeIfBetter(std::move(trial)) ? 0 : k + 1;
-  }
+  for (std::size_t k = 0; k < chosen_.size();)
+    k = change(nullptr, k, chosen_[k].fit >= least_fit) ? 0 : k + 1;
 }
 
 /** \brief Tries the candidates, best fit first; each stays if all together explain more with it. */
@@ -154,9 +196,7 @@ Choice::add(const std::vector<Explanation>& candidates)
       ++d.died_fit;
       continue;
     }
-    auto trial = chosen_;
-    trial.push_back(e);
-    takeIfBetter(std::move(trial));
+    change(&e, kNone, true);
   }
   dropWorthless(work_.parameters.junk_fit);
 }
@@ -171,12 +211,12 @@ Choice::polish()
       Explanation& e = chosen_[k];
       SupportMemory& memory = work_.memory[worker];
       e.centre = centroidOf(work_.scene.cells, e.cells);
-      const Indices ball =
-          cellsWithin(work_.open, e.centre, work_.radiusOf(e.model), memory.ranges);
+      e.reach = work_.radiusOf(e.model);
+      const Indices ball = cellsWithin(work_.open, e.centre, e.reach, memory.ranges);
       supportOf(work_.scene, work_.scene.models.all[e.model], ball, e.cells, p.probes, memory,
                 e.supported);
     });
-    division_.divide(chosen_, round + 1 == kPolishings);
+    division_.divide(chosen_, chosen_.size(), round + 1 == kPolishings);
     chosen_.erase(
         std::remove_if(chosen_.begin(), chosen_.end(),
                        [&](const Explanation& e) { return e.cells.size() < p.steps.min_cluster; }),
@@ -206,8 +246,7 @@ Choice::rivalsOf(const Explanation& e, const std::vector<Segment>& all) const
   std::vector<Segment> rivals;
   const double reach = work_.scene.models.all[e.model].model->r_max;
   for (const auto& s : all)
-    if (s.model != e.model && std::hypot(s.centre[0] - e.centre[0], s.centre[1] - e.centre[1],
-                                         s.centre[2] - e.centre[2]) < reach)
+    if (s.model != e.model && distance(s.centre, e.centre) < reach)
       rivals.push_back(s);
   std::vector<PlaceRange> ranges;
   for (std::size_t k = 0; k < work_.scene.models.objects; ++k) {
@@ -247,12 +286,10 @@ Choice::exchangeWeak(const std::vector<Segment>& candidates)
     const auto others = lookClosely(work_, rivalsOf(chosen_[k], candidates));
     work_.openExcept(std::vector<char>(work_.scene.cells.size(), 0));
     const auto before = chosen_;
-    auto without = chosen_;
-    without.erase(without.begin() + static_cast<std::ptrdiff_t>(k));
-    division_.divide(without, false);
-    chosen_ = std::move(without);
+    const double value_before = value();
+    change(nullptr, k, false);
     add(others);
-    if (value(chosen_) > value(before))
+    if (value() > value_before)
       return true;
     chosen_ = before;
   }

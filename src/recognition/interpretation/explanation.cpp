@@ -168,6 +168,9 @@ lookClosely(Explaining& work, const Segment& rough, SupportMemory& memory)
       e.cells.push_back(c.cell);
   }
   e.centre = centroidOf(work.scene.cells, e.cells);
+  for (const auto c : e.cells)
+    e.reach = std::max(e.reach, distance(e.centre, {work.scene.cells.x[c], work.scene.cells.y[c],
+                                                    work.scene.cells.z[c]}));
   return e;
 }
 

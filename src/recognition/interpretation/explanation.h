@@ -12,6 +12,7 @@ namespace interpretation {
 struct Explanation {
   std::size_t model = 0;
   Centre centre{};
+  double reach = 0; ///< largest distance of a supporting cell to the centre, or more
   std::vector<CellSupport> supported; ///< all cells that support it, whoever owns them
   Indices cells;                      ///< those of them that are its own, ascending
   double fit = 0;                     ///< overlap of the cells' histogram with the model's

@@ -74,12 +74,6 @@ isPromising(const Explaining& work, const Segment& s, double least_fit)
          s.rough_fit >= least_fit;
 }
 
-double
-distance(const Centre& a, const Centre& b)
-{
-  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-}
-
 /** \brief Drops what is not promising and, of segments at one place, all but the most worthy. */
 std::vector<Segment>
 best(const Explaining& work, std::vector<Segment> all, double least_fit)

@@ -6,10 +6,18 @@
 #include "pcl_surflet/core/linear_octree.h"
 #include "steps.h"
 
+#include <cmath>
+
 namespace pcl_surflet {
 namespace interpretation {
 
 using Centre = std::array<double, 3>;
+
+inline double
+distance(const Centre& a, const Centre& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
 
 /** \brief A segment of fewer of a model's cells, if their number is known, is nothing. */
 constexpr double kLeastCoverage = 0.3;
@@ -94,7 +102,7 @@ void supportOf(const SceneData& scene, const SceneModel& model, const Indices& c
 
 /** \brief Overlap of the histogram of \p cells, from \p features random pairs, with the model. */
 Overlap fitOf(const SceneData& scene, const SceneModel& model, const Indices& cells,
-             std::uint64_t features, std::uint64_t seed);
+              std::uint64_t features, std::uint64_t seed);
 
 } // namespace interpretation
 } // namespace pcl_surflet
