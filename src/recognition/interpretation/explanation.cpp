@@ -22,6 +22,7 @@ constexpr double kSeenShare = 0.4;
 /** \brief One cell of so many is asked at first: their core is enough to ask all. */
 constexpr std::size_t kFirstCompletion = 4;
 constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
+constexpr std::uint64_t kMarginStream = std::uint64_t{5} << 40, kMarginPairs = 20000;
 
 void
 check(const ExplanationParameters& p)
@@ -80,6 +81,22 @@ scoreOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
   return std::isfinite(rival) ? own - rival : 0;
 }
 
+/** \brief Fit above that of the best other model on the same cells. Fewer pairs than for the fit do,
+ * as scatter lowers all alike. */
+double
+marginOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
+{
+  const auto& models = scene.models;
+  const auto fit = [&](std::size_t k) {
+    return fitOf(scene, models.all[k], e.cells, kMarginPairs, seed ^ kMarginStream).share;
+  };
+  double rival = 0;
+  for (std::size_t k = 0; k < models.objects; ++k)
+    if (k != e.model)
+      rival = std::max(rival, fit(k));
+  return fit(e.model) - rival;
+}
+
 Detection
 detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
 {
@@ -90,6 +107,7 @@ detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
   d.centroid = centroidOf(scene.cells, e.cells);
   d.score = scoreOf(scene, e, seed);
   d.fit = e.fit;
+  d.margin = marginOf(scene, e, seed);
   d.member = e.member;
   d.cells = std::move(e.cells);
   std::sort(d.cells.begin(), d.cells.end());
@@ -206,8 +224,10 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   auto chosen = choose(work, candidates);
   if (!progress.goesOn(1))
     return result;
-  for (auto& e : chosen)
-    result.detections.push_back(detectionOf(scene, std::move(e), p.steps.seed));
+  result.detections.resize(chosen.size());
+  parallelFor(chosen.size(), p.steps.threads, [&](std::size_t k, unsigned) {
+    result.detections[k] = detectionOf(scene, std::move(chosen[k]), p.steps.seed);
+  });
   std::stable_sort(result.detections.begin(), result.detections.end(),
                    [](const auto& a, const auto& b) { return a.model < b.model; });
   countDetections(result);
