@@ -245,10 +245,10 @@ detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
   const auto n = static_cast<double>(detection.cells.size());
   if (n == 0)
     return 0;
-  if (detection.fit > 0 && detection.score == 0) // nothing to compare with
+  if (detection.fit > 0 && detection.margin == 0) // nothing to compare with
     return logistic(31 * detection.fit - 26.3);
   if (detection.fit > 0)
-    return logistic(30 * detection.fit + 15 * std::clamp(detection.score, 0.0, 1.0) - 31.5);
+    return logistic(19.7 * detection.fit + 12.5 * detection.margin - 18.4);
   constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
   return logistic(kIndependent * detection.score) * n / (n + static_cast<double>(min_cluster));
 }

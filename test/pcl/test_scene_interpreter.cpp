@@ -396,22 +396,23 @@ TEST(SceneInterpreter, CoverageIsOfTheAreaThatTrainingForScenesFinds)
     EXPECT_NEAR(d.coverage, 1, 0.1) << d.label;
 }
 
-TEST(SceneInterpreter, ConfidenceGrowsWithFitAndScore)
+TEST(SceneInterpreter, ConfidenceGrowsWithFitAndMargin)
 {
   Detection d;
-  d.score = 0.3;
+  d.margin = 0.1;
   d.fit = 0.83;
   d.cells.resize(300);
   const double usual = detail::confidenceOf(d, 30);
-  EXPECT_NEAR(usual, 1 / (1 + std::exp(31.5 - 30 * 0.83 - 15 * 0.3)), 1e-12);
+  EXPECT_NEAR(usual, 1 / (1 + std::exp(18.4 - 19.7 * 0.83 - 12.5 * 0.1)), 1e-12);
   Detection better = d, nearer = d, best = d, alone = d;
-  better.score = 0.5;
+  better.margin = 0.2;
   nearer.fit = 0.9;
   for (const auto& e : {better, nearer})
     EXPECT_GT(detail::confidenceOf(e, 30), usual);
   best.fit = 0.95;
+  best.margin = 0.3;
   EXPECT_GT(detail::confidenceOf(best, 30), 0.8);
-  alone.score = 0;
+  alone.margin = 0;
   alone.fit = 0.95;
   EXPECT_GT(detail::confidenceOf(alone, 30), 0.9) << "a database of one model has no rivals";
   alone.fit = 0.7;

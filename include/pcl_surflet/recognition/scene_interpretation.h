@@ -136,10 +136,10 @@ struct Detection {
   std::size_t seeds = 0; ///< merged cluster seeds, n_C; 0 by explanation
   double fit = 0; ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
   /** \brief By explanation: how much better it fits than the best other model fits the same cells,
-   * in [-1, 1]; the fit itself without any other model. */
+   * in [-1, 1]; 0 without any other model. */
   double margin = 0;
-  /** \brief By explanation: the member of the model that fits best. With members for views (addView())
-   * it tells from where the object was seen. */
+  /** \brief By explanation: the member of the model that fits best. With members for views
+   * (addView()) it tells from where the object was seen. */
   std::size_t member = 0;
   double votes = 1; ///< share of the runs that found it, in (0, 1]; see AccumulationParameters
 };

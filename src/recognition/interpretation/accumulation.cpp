@@ -122,6 +122,7 @@ count(std::size_t runs, Hypothesis& h)
   for (const auto& v : h.votes) {
     seen[v.run] = 1;
     d.score += v.detection->score / static_cast<double>(h.votes.size());
+    d.margin += v.detection->margin / static_cast<double>(h.votes.size());
     d.fit += v.detection->fit / static_cast<double>(h.votes.size());
     d.seeds += v.detection->seeds;
   }

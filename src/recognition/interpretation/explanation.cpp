@@ -81,12 +81,14 @@ scoreOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
   return std::isfinite(rival) ? own - rival : 0;
 }
 
-/** \brief Fit above that of the best other model on the same cells. Fewer pairs than for the fit do,
- * as scatter lowers all alike. */
+/** \brief Fit above that of the best other model on the same cells. Fewer pairs than for the fit
+ * do, as scatter lowers all alike. */
 double
 marginOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
 {
   const auto& models = scene.models;
+  if (models.objects < 2)
+    return 0;
   const auto fit = [&](std::size_t k) {
     return fitOf(scene, models.all[k], e.cells, kMarginPairs, seed ^ kMarginStream).share;
   };

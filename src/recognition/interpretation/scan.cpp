@@ -95,24 +95,45 @@ best(const Explaining& work, std::vector<Segment> all, double least_fit)
   return kept;
 }
 
-/** \brief Every model at every place; models of like radius share a sample. */
+/** \brief What is tried at a place: models of like radius, which share a sample. */
+struct Trial {
+  Centre place;
+  const std::vector<std::size_t>* models;
+};
+
+/** \brief Every model all over the scene, larger ones at fewer places. */
 std::vector<Segment>
-tryEverywhere(Explaining& work, const std::vector<Centre>& places)
+tryEverywhere(Explaining& work)
 {
   const auto classes = radiusClasses(work);
-  const std::size_t models = work.scene.models.objects;
-  std::vector<Segment> all(places.size() * models);
-  work.progress.beginPart(kScanBegins, kScanEnds, places.size());
-  parallelFor(places.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
+  std::vector<Trial> trials;
+  std::vector<std::size_t> first; // of the segments of a trial
+  std::size_t segments = 0;
+  for (const auto& models : classes) {
+    double smallest = work.scene.models.all[models.front()].model->r_mean;
+    for (const auto k : models)
+      smallest = std::min(smallest, work.scene.models.all[k].model->r_mean);
+    for (const auto& place :
+         placesOf(work.scene, work.open, work.parameters.place_spacing * smallest)) {
+      trials.push_back({place, &models});
+      first.push_back(segments);
+      segments += models.size();
+      for (const auto k : models)
+        ++work.diagnosticsOf(k).places;
+    }
+  }
+  std::vector<Segment> all(segments);
+  work.progress.beginPart(kScanBegins, kScanEnds, trials.size());
+  parallelFor(trials.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
     if (!work.progress.goesOnInPart(worker))
       return;
     SupportMemory& memory = work.memory[worker];
-    for (const auto& members : classes) {
-      drawSample(work.scene, work.open, places[i], work.radiusOf(members.front()),
-                 work.parameters.scan_cells / 2, memory);
-      for (const auto k : members)
-        all[i * models + k] = segment(work.scene, k, places[i], work.radiusOf(k), memory);
-    }
+    const auto& [place, models] = trials[i];
+    drawSample(work.scene, work.open, place, work.radiusOf(models->front()),
+               work.parameters.scan_cells / 2, memory);
+    for (std::size_t m = 0; m < models->size(); ++m)
+      all[first[i] + m] =
+          segment(work.scene, (*models)[m], place, work.radiusOf((*models)[m]), memory);
   });
   return all;
 }
@@ -122,11 +143,7 @@ tryEverywhere(Explaining& work, const std::vector<Centre>& places)
 std::vector<Segment>
 scan(Explaining& work)
 {
-  double smallest = work.scene.models.all[0].model->r_mean;
-  for (std::size_t k = 0; k < work.scene.models.objects; ++k)
-    smallest = std::min(smallest, work.scene.models.all[k].model->r_mean);
-  const auto places = placesOf(work.scene, work.open, work.parameters.place_spacing * smallest);
-  auto found = best(work, tryEverywhere(work, places), kLeastFirstFit);
+  auto found = best(work, tryEverywhere(work), kLeastFirstFit);
   for (unsigned round = 1; round < work.parameters.recentrings; ++round) {
     parallelFor(found.size(), work.parameters.steps.threads, [&](std::size_t i, unsigned worker) {
       SupportMemory& memory = work.memory[worker];
@@ -137,8 +154,6 @@ scan(Explaining& work)
     });
     found = best(work, std::move(found), kLeastRoughFit);
   }
-  for (std::size_t k = 0; k < work.scene.models.objects; ++k)
-    work.diagnosticsOf(k).places += places.size();
   for (const auto& s : found)
     ++work.diagnosticsOf(s.model).promising;
   return found;
