@@ -9,6 +9,7 @@
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/recognition/scene_training.h"
 #include "pcl_surflet/scene_interpreter.h"
+#include "pcl_surflet/view_training.h"
 
 #include <cmath>
 #include <cstdio>
@@ -135,12 +136,13 @@ public:
     around.views.views = ViewSet::Ring24;
     ModelDatabase database;
     for (const auto& item : objects)
-      database.add(trainForScenes(
-          trainer, item.label,
-          o.sensed ? senseAlone(item, around, kTrainingSeed)
-                   : item.sample(static_cast<std::size_t>(item.area * o.scene.density) + 1,
-                                 kTrainingSeed),
-          o.leaf, kTrainingSeed));
+      database.add(o.sensed
+                       ? trainForSensors(trainer, item, around, o.leaf, kTrainingSeed)
+                       : trainForScenes(
+                             trainer, item.label,
+                             item.sample(static_cast<std::size_t>(item.area * o.scene.density) + 1,
+                                         kTrainingSeed),
+                             o.leaf, kTrainingSeed));
     SceneOptions empty = o.scene;
     empty.seed = kTrainingSeed;
     interpreter_.setDatabase(database);

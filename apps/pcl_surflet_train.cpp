@@ -7,6 +7,7 @@
 #include "pcl_surflet/model_bank_trainer.h"
 #include "pcl_surflet/recognition/scene_training.h"
 #include "pcl_surflet/surface_file.h"
+#include "pcl_surflet/view_training.h"
 
 #include <cerrno>
 #include <cstring>
@@ -31,6 +32,7 @@ struct Options {
   Resolution resolution;
   ModelBank bank = ModelBank::none();
   double leaf = 0;
+  bool views = false;
   std::uint64_t pairs = 10000000, seed = 1, threads = 0, neighbours = 0;
   std::vector<std::string> files;
 };
@@ -60,6 +62,10 @@ checkLeaf(const CommandLine& line, const Options& o)
 {
   if (o.leaf > 0 && !o.bank.conditions.empty())
     throw UsageError("option -leaf goes with -bank none: scenes are searched for whole objects");
+  if (o.views && !(o.leaf > 0))
+    throw UsageError("option -views goes with -leaf");
+  if (o.views && o.background)
+    throw UsageError("option -views does not go with -background");
   if (o.leaf > 0 && line.given("-pairs"))
     throw UsageError("option -pairs does not go with -leaf, which decides how many there are");
   if (o.leaf > 0 && o.background)
@@ -124,6 +130,10 @@ addOptions(CommandLine& line, Options& o)
             "what of an object is left in such cells. Clouds should have several points a cell; "
             "meshes are sampled so. Default none: for single objects",
             o.leaf, 1e-9, 1e9);
+  line.flag("-views",
+            "with -leaf, of meshes: also learns what a sensor sees of the object from one "
+            "side or two, z up; for scenes that are not seen from all round",
+            o.views);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
   addNeighbours(line, o.neighbours);
@@ -213,6 +223,13 @@ surfletsFor(const TriangleMesh& mesh, double leaf)
 HistogramModel
 modelOf(const Options& o, const std::string& label, const SurfaceFile& file)
 {
+  if (o.views) {
+    if (!file.mesh)
+      throw DataError("'" + label + "': option -views needs a mesh, not points");
+    const SceneItem item = sceneItem(label, *file.mesh);
+    return trainForSensors(trainerFor(o), item, sensingFor(item, o.leaf), o.leaf, o.seed,
+                           static_cast<unsigned>(o.threads));
+  }
   if (o.leaf > 0) {
     const std::size_t wanted = file.mesh ? surfletsFor(*file.mesh, o.leaf) : 0;
     return trainForScenes(trainerFor(o), label, surfletsOf(file, wanted, o.seed), o.leaf, o.seed,

@@ -30,12 +30,12 @@ seenBackground(SceneOptions options, const Sensing& sensing)
   return sensedSurflets(senseViews(backgroundBodies(options), *sensing, options.seed));
 }
 
-std::vector<OrientedScan>
-scansAlone(const SceneItem& item, const SceneSensing& sensing, Posture posture)
+SceneSensing
+aroundAlone(const SceneSensing& sensing, Posture posture)
 {
   SceneSensing round = sensing;
   round.views.views = posture == Posture::Upright ? ViewSet::Ring24 : ViewSet::All24;
-  return scansAlone(item, round, kTrainingSeed);
+  return round;
 }
 
 std::size_t

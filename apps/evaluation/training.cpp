@@ -3,8 +3,8 @@
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/recognition/scene_training.h"
+#include "pcl_surflet/view_training.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace pcl_surflet {
@@ -13,9 +13,6 @@ namespace {
 
 constexpr std::size_t kTrainingSurflets = 100000; // as in [Wahl 2007, Sec. 5.5.2]
 constexpr std::size_t kBackgroundPatches = 8;
-/** \brief What lies this flat and this low, in cells, is a foot, if it is this share of a view. */
-constexpr float kFlat = 0.7f;
-constexpr double kFootHeight = 2, kLeastFoot = 0.05;
 constexpr double kEvening = 0.5; ///< edge of cells that even out the density, in those of scenes
 
 /** \brief Surflets of \p set within \p radius of one of them, drawn at random. */
@@ -30,67 +27,22 @@ patchOf(const SurfletSet& set, double radius, CounterRandom& random)
   return patch;
 }
 
-/** \brief Without the flat foot of what stands upright: it is taken for what carries it. */
-SurfletSet
-withoutFoot(const SurfletSet& seen, double leaf)
-{
-  const float bottom = *std::min_element(seen.z.begin(), seen.z.end());
-  SurfletSet out;
-  for (std::size_t i = 0; i < seen.size(); ++i)
-    if (seen.nz[i] < kFlat || seen.z[i] > bottom + kFootHeight * leaf)
-      out.push_back(seen[i]);
-  return out;
-}
-
-/** \brief Adds a member for \p seen, and for the same without foot if there is one. */
-void
-addViewAndFootless(HistogramModel& model, const std::string& name, const SurfletSet& seen,
-                   const TrainingOptions& o)
-{
-  addView(model, name, seen, o.leaf, kTrainingSeed, o.threads);
-  const SurfletSet above = withoutFoot(seen, o.leaf);
-  if (static_cast<double>(above.size()) < (1 - kLeastFoot) * static_cast<double>(seen.size()))
-    addView(model, name + ", no foot", above, o.leaf, kTrainingSeed, o.threads);
-}
-
-/** \brief Adds members for what single sensors and pairs of opposite ones see: every second place
- * of the ring, where there are two sensors at each. */
-void
-addViews(HistogramModel& model, const std::vector<OrientedScan>& scans, const TrainingOptions& o)
-{
-  for (std::size_t place = 0; place < scans.size() / 2; place += 2)
-    for (std::size_t sensor : {0, 1}) {
-      const OrientedScan& scan = scans[2 * place + sensor];
-      const std::string name = "seen from " + std::to_string(2 * place + sensor);
-      addViewAndFootless(model, name, sensedSurflets({scan}), o);
-      if (place < scans.size() / 4)
-        addViewAndFootless(
-            model, name + " and opposite",
-            sensedSurflets({scan, scans[2 * place + sensor + scans.size() / 2]}), o);
-    }
-}
-
 HistogramModel
 trained(const SceneItem& item, const TrainingOptions& o, const HistogramModelTrainer& trainer)
 {
-  const auto train = [&](const SurfletSet& surflets) {
-    return o.for_scenes ? trainForScenes(trainer, item.label, surflets, o.leaf, kTrainingSeed,
-                                         o.threads)
-                        : trainer.train(item.label, surflets);
-  };
-  if (!o.sensing)
-    return train(item.sample(o.for_scenes
-                                 ? static_cast<std::size_t>(item.area * o.scene.density) + 1
-                                 : kTrainingSurflets,
-                             kTrainingSeed));
-  const auto scans = scansAlone(item, *o.sensing, o.scene.posture);
-  const SurfletSet seen = sensedSurflets(scans);
-  // What many sensors see is dense: even out what is not reduced to cells later on.
+  if (o.sensing && o.for_scenes)
+    return trainForSensors(trainer, item, aroundAlone(*o.sensing, o.scene.posture), o.leaf,
+                           kTrainingSeed, o.threads);
+  if (o.sensing) { // what many sensors see is dense: even it out
+    const SurfletSet seen =
+        senseAlone(item, aroundAlone(*o.sensing, o.scene.posture), kTrainingSeed);
+    return trainer.train(item.label, reduceToCells(seen, kEvening * o.leaf).cells);
+  }
   if (!o.for_scenes)
-    return train(reduceToCells(seen, kEvening * o.leaf).cells);
-  HistogramModel model = train(seen);
-  addViews(model, scans, o);
-  return model;
+    return trainer.train(item.label, item.sample(kTrainingSurflets, kTrainingSeed));
+  const auto surflets = static_cast<std::size_t>(item.area * o.scene.density) + 1;
+  return trainForScenes(trainer, item.label, item.sample(surflets, kTrainingSeed), o.leaf,
+                        kTrainingSeed, o.threads);
 }
 
 /** \brief Models of pieces of the empty background, of the size of the largest object. */

@@ -1,0 +1,127 @@
+#include "pcl_surflet/view_training.h"
+
+#include "pcl_surflet/recognition/scene_training.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace pcl_surflet {
+namespace {
+
+/** \brief What lies this flat and this low, in cells, is a foot, if it is this share of a view. */
+constexpr float kFlat = 0.7f;
+constexpr double kFootHeight = 2, kLeastFoot = 0.05;
+/** \brief Of sensingFor(): distance and width of the picture in diameters, pixels a cell. */
+constexpr double kDistance = 5, kWidth = 1.3, kPixelsPerCell = 2.5;
+constexpr double kMostPixels = 4096;
+constexpr double kNormalRadius = 1.2; ///< in cells
+constexpr double kGrazing = 80;
+
+/** \brief The members of one model, view by view. */
+class Views {
+public:
+  Views(HistogramModel& model, double leaf, std::uint64_t seed, unsigned threads)
+      : model_(model), leaf_(leaf), seed_(seed), threads_(threads)
+  {
+  }
+
+  /** \brief Adds a member for what is seen, and for the same without foot if there is one. */
+  void
+  add(const std::string& name, const SurfletSet& seen)
+  {
+    const SurfletSet above = withoutFoot(seen);
+    addIfEnough(name, seen);
+    if (static_cast<double>(above.size()) < (1 - kLeastFoot) * static_cast<double>(seen.size()))
+      addIfEnough(name + ", no foot", above);
+  }
+
+private:
+  void
+  addIfEnough(const std::string& name, const SurfletSet& seen)
+  {
+    try {
+      addView(model_, name, seen, leaf_, seed_, threads_);
+    }
+    catch (const TrainingError&) { // from here it shows next to nothing
+    }
+  }
+
+  SurfletSet
+  withoutFoot(const SurfletSet& seen) const
+  {
+    SurfletSet out;
+    if (seen.empty())
+      return out;
+    const float bottom = *std::min_element(seen.z.begin(), seen.z.end());
+    for (std::size_t i = 0; i < seen.size(); ++i)
+      if (seen.nz[i] < kFlat || seen.z[i] > bottom + kFootHeight * leaf_)
+        out.push_back(seen[i]);
+    return out;
+  }
+
+  HistogramModel& model_;
+  double leaf_;
+  std::uint64_t seed_;
+  unsigned threads_;
+};
+
+/** \brief Every second place; on a ring there are two sensors at each, and opposite ones. */
+void
+addViews(Views& views, const std::vector<OrientedScan>& scans, bool ring)
+{
+  const std::size_t places = scans.size() / 2;
+  for (std::size_t place = 0; place < places; place += 2)
+    for (const std::size_t k : {2 * place, 2 * place + 1}) {
+      const std::string name = "seen from " + std::to_string(k);
+      views.add(name, sensedSurflets({scans[k]}));
+      if (ring && place < places / 2)
+        views.add(name + " and opposite", sensedSurflets({scans[k], scans[k + places]}));
+    }
+}
+
+} // namespace
+
+SceneSensing
+sensingFor(const SceneItem& item, double leaf)
+{
+  const TriangleMesh mesh = item.mesh();
+  double low[3], high[3], squared = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    low[a] = high[a] = mesh.vertices.empty() ? 0 : mesh.vertices[0][a];
+    for (const auto& v : mesh.vertices) {
+      low[a] = std::min<double>(low[a], v[a]);
+      high[a] = std::max<double>(high[a], v[a]);
+    }
+    squared += (high[a] - low[a]) * (high[a] - low[a]);
+  }
+  const double diameter = std::sqrt(squared), pixels = kPixelsPerCell * kWidth * diameter / leaf;
+  if (!(leaf > 0) || !std::isfinite(leaf) || !(diameter > 0) || !(pixels <= kMostPixels))
+    throw std::invalid_argument("sensingFor: cells of edge " + std::to_string(leaf) +
+                                " are not for an object of diameter " + std::to_string(diameter) +
+                                "; is the unit the same?");
+  SceneSensing s;
+  s.sensor.columns = s.sensor.rows = static_cast<std::size_t>(std::max(16.0, std::ceil(pixels)));
+  s.sensor.opening = 2 * std::atan(kWidth / 2 / kDistance) * 180 / M_PI;
+  s.sensor.edge = leaf;
+  s.sensor.grazing = kGrazing;
+  s.views.distance = kDistance * diameter;
+  s.normal_radius = kNormalRadius * leaf;
+  return s;
+}
+
+HistogramModel
+trainForSensors(const HistogramModelTrainer& trainer, const SceneItem& item,
+                const SceneSensing& sensing, double leaf, std::uint64_t seed, unsigned threads)
+{
+  const auto scans = scansAlone(item, sensing, seed);
+  HistogramModel model =
+      trainForScenes(trainer, item.label, sensedSurflets(scans), leaf, seed, threads);
+  Views views(model, leaf, seed, threads);
+  addViews(views, scans, sensing.views.views == ViewSet::Ring24);
+  return model;
+}
+
+} // namespace pcl_surflet
