@@ -92,6 +92,7 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
        {"train", {"-database", "d.pcd", "-leaf", "0.1", "-bank", "default", "a.off"}, "-bank"},
        {"train", {"-database", "d.pcd", "-leaf", "0.1", "-pairs", "1000", "a.off"}, "-pairs"},
        {"train", {"-database", "d.pcd", "-leaf", "0.1", "-background", "a.off"}, "-background"},
+       {"train", {"-database", "d.pcd", "-views", "a.off"}, "-leaf"},
        {"classify", {"a.pcd"}, "-database"},
        {"classify", {"-database", "d.pcd"}, "FILE"},
        {"feature", {"a.pcd"}, "OUT.pcd"},
