@@ -23,8 +23,9 @@ Scene seenScene(const std::vector<SceneItem>& objects, const std::vector<SceneIt
 /** \brief The empty background, seen another time than any scene. */
 SurfletSet seenBackground(SceneOptions options, const Sensing& sensing);
 
-/** \brief How an object alone is seen, as models are trained from it: a sensor looks from 24 places, not from
- * below if objects stand upright [Wahl 2007, Sec. 5.5.3]. \p posture is that of the scenes. */
+/** \brief How an object alone is seen, as models are trained from it: a sensor looks from 24
+ * places, not from below if objects stand upright [Wahl 2007, Sec. 5.5.3]. \p posture is that of
+ * the scenes. */
 SceneSensing aroundAlone(const SceneSensing& sensing, Posture posture);
 
 /** \brief How many of \p items are present in scene \p seed, where each is so with this

@@ -18,11 +18,11 @@ PCL_SURFLET_API SceneSensing sensingFor(const SceneItem& item, double leaf);
 /** \brief trainForScenes() on what a virtual sensor sees of an object alone, from all places of
  * \p sensing together, with further members (addView()) for single views.
  *
- * Members are what every second place shows and, on a ring, what it shows together with the opposite
- * one; all once more without the foot of what stands upright (z up): flat surfaces near the bottom
- * are taken for what carries the object. With a ring of 24 that is 19 histograms, 37 for objects with
- * a foot, of 10 kB each at 7,7,7,7. Views that show too little are left out. Nothing is learned of
- * surfaces that no sensor sees: the bottom, the inside of a vase.
+ * Members are what every second place shows and, on a ring, what it shows together with the
+ * opposite one; all once more without the foot of what stands upright (z up): flat surfaces near
+ * the bottom are taken for what carries the object. With a ring of 24 that is 19 histograms, 37 for
+ * objects with a foot, of 10 kB each at 7,7,7,7. Views that show too little are left out. Nothing
+ * is learned of surfaces that no sensor sees: the bottom, the inside of a vase.
  *
  * \param leaf edge of the cells, as in the scenes to come
  * \throws TrainingError, std::invalid_argument as trainForScenes() and senseAlone() */

@@ -258,7 +258,8 @@ TEST(Pose, WhatSensorsShouldSeeCounts)
   ASSERT_EQ(e.status, PoseStatus::Found) << e.reason;
   const auto handle = e.motion.turned({1, 0, 0});
   EXPECT_GT(handle[0], 0.3) << "the handle would stick out, or be in front";
-  // Complete, less than a tenth is missed by chance; without its upper half, a side view misses about half.
+  // Complete, less than a tenth is missed by chance; without its upper half, a side view misses
+  // about half.
   p.unseen_weight = 0.5;
   const auto whole = estimatePose(cup, modelOf("cup"), p);
   EXPECT_GT(whole.score, whole.inlier_share - 0.05);

@@ -14,7 +14,7 @@ constexpr unsigned kIterations = 10;
 /** \brief A weight rises from 0 to 1 over this interval of support, halved thrice. */
 constexpr float kFirstSlope = 1;
 constexpr unsigned kSlopeDoublings = 3;
-constexpr float kSettled = 0.005f; ///< share of the weight that may still change
+constexpr float kSettled = 0.005f;          ///< share of the weight that may still change
 constexpr std::size_t kPairsInCache = 4096; ///< whose indices and features stay in the cache
 
 /** \brief Columns and distances of what is in m.features, see Sample. */
