@@ -14,7 +14,7 @@ namespace {
 
 /** \brief Segments whose few pairs fit less than this are not completed. */
 constexpr double kLeastRoughFit = 0.45;
-constexpr double kBackgroundKnown = 0.1; ///< share of the work, about
+constexpr double kBackgroundKnown = 0.1, kScanned = 0.5; ///< shares of the work, about
 constexpr unsigned kSettlings = 2;
 /** \brief Share of its surface that a view of an object shows, about, where models have members
  * for views. */
@@ -223,6 +223,9 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
     result.diagnostics.background_cells = cells.size() - work.open.size();
   }
   const auto candidates = progress.goesOn(kBackgroundKnown) ? scan(work) : std::vector<Segment>();
+  // The calling thread may have had no part in the scan, so it is asked again.
+  if (!progress.goesOn(kScanned))
+    return result;
   auto chosen = choose(work, candidates);
   if (!progress.goesOn(1))
     return result;
