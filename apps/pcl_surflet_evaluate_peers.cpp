@@ -73,8 +73,8 @@ knownObjects(const std::vector<SceneItem>& items, double leaf)
   std::vector<Known> known;
   for (const auto& item : items) {
     const SurfletSet surface = item.sample(kModelSurflets, kTrainingSeed);
-    known.push_back({item, reduceToTwoSidedCells(surface, leaf).cells,
-                     centroidOf(surface), PoseModel::train(item.label, surface)});
+    known.push_back({item, reduceToTwoSidedCells(surface, leaf).cells, centroidOf(surface),
+                     PoseModel::train(item.label, surface)});
   }
   return known;
 }
@@ -122,9 +122,8 @@ private:
     if (!poses_)
       return f;
     const auto& known = known_[d.model];
-    const PoseEstimate e =
-        estimatePose(cluster, known.pose, parameters_,
-                     pointsBeside(cells, taken, cluster, known.pose.diameter()));
+    const PoseEstimate e = estimatePose(cluster, known.pose, parameters_,
+                                        pointsBeside(cells, taken, cluster, known.pose.diameter()));
     if (e.status == PoseStatus::Found) {
       f.motion = e.motion;
       f.centre = e.motion.moved(known.centre);
@@ -158,8 +157,7 @@ public:
     if (scene.empty())
       return a;
     for (std::size_t k = 0; k < known_.size(); ++k) {
-      const auto result =
-          runIsolated([&] { return rowsOf(finders_[k]->find(scene)); }, limit_);
+      const auto result = runIsolated([&] { return rowsOf(finders_[k]->find(scene)); }, limit_);
       a.failures += result ? 0 : 1;
       a.seconds += result ? result->seconds : limit_;
       if (!result)
@@ -219,8 +217,8 @@ public:
                    .cells)
   {
     for (const auto& k : known_)
-      judged_.push_back({PoseError(k.item.sample(kModelSurflets, kTrainingSeed)),
-                         k.pose.diameter(), k.pose.symmetry().kind != SymmetryKind::None});
+      judged_.push_back({PoseError(k.item.sample(kModelSurflets, kTrainingSeed)), k.pose.diameter(),
+                         k.pose.symmetry().kind != SymmetryKind::None});
   }
 
   void
@@ -334,8 +332,8 @@ addOptions(CommandLine& line, Options& o)
   line.count("-tune", "N",
              "scenes from seed 1 on that thresholds are chosen on, default 5; 0: none", o.tune, 0,
              99);
-  line.real("-presence", "P", "each item is present with this probability, default 0.5",
-            o.presence, 0, 1);
+  line.real("-presence", "P", "each item is present with this probability, default 0.5", o.presence,
+            0, 1);
   addArrangement(line, o.recogniser.scene);
   line.real("-density", "D", "points per squared unit, default 470000", o.recogniser.scene.density,
             1e-9, 1e12);
@@ -373,10 +371,9 @@ run(int argc, char** argv)
               "%-16s %6s %9s  %-29s  %-29s  %-29s  %-29s  %8s %s\n",
               static_cast<unsigned long long>(o.scenes), static_cast<unsigned long long>(o.seed),
               static_cast<unsigned long long>(o.seed + o.scenes - 1),
-              static_cast<unsigned long long>(o.tune),
-              static_cast<unsigned long long>(kFirstTuned), "peer", "scenes", "threshold",
-              "named right %", "detections right %", "centre right %", "pose right %", "s/scene",
-              "fail");
+              static_cast<unsigned long long>(o.tune), static_cast<unsigned long long>(kFirstTuned),
+              "peer", "scenes", "threshold", "named right %", "detections right %",
+              "centre right %", "pose right %", "s/scene", "fail");
   for (const auto& name : o.peers)
     study.run(name);
   return kOk;

@@ -7,8 +7,8 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-constexpr double kShared = 0.5;     // of the smaller one's cells makes rivals
-constexpr double kPoseLimit = 0.1;  // of the diameter
+constexpr double kShared = 0.5;      // of the smaller one's cells makes rivals
+constexpr double kPoseLimit = 0.1;   // of the diameter
 constexpr double kCentreLimit = 0.5; // of r_mean
 
 bool

@@ -28,7 +28,7 @@ using Cloud = pcl::PointCloud<pcl::PointNormal>;
 using Signatures = pcl::PointCloud<pcl::SHOT352>;
 
 constexpr int kIcpIterations = 40;
-constexpr double kIcpReach = 3;  // in cells
+constexpr double kIcpReach = 3;    // in cells
 constexpr int kFewestAgreeing = 4; // correspondences of a geometrically consistent group
 
 Cloud::Ptr
