@@ -72,7 +72,7 @@ public:
     std::vector<cv::ppf_match_3d::Pose3DPtr> poses;
     // The scene is sampled as densely as the model: its step is a share of the scene's size.
     detector_.match(rows, poses, parameters_.scene_step,
-                    std::min(0.05, step_ / farthestDistance(scene)));
+                    std::min(parameters_.sampling, step_ / farthestDistance(scene)));
     poses.resize(std::min(poses.size(), parameters_.proposals));
     if (!repaired_ && !poses.empty()) {
       cv::ppf_match_3d::ICP icp(100, 0.005f, 2.5f, 8);

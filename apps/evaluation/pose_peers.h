@@ -24,9 +24,11 @@ struct PosePeerParameters {
   double shot_radius = 7;         ///< SHOT: in cells
   double correspondence = 0.25;   ///< SHOT: largest squared distance of descriptors
   double consistency = 2;         ///< SHOT: in cells
-  double sampling = 0.05;         ///< OpenCV: distance step, share of the model's diameter
-  double scene_step = 0.1;        ///< OpenCV: share of the scene's points that vote
-  std::size_t proposals = 5;      ///< of each model, refined and compared
+  /** \brief OpenCV: distance step, share of the diameter. Training an ellipsoid takes 0.3 s with
+   * 0.1, 9 s with 0.07 and more than 30 s with 0.05. */
+  double sampling = 0.1;
+  double scene_step = 0.1;   ///< OpenCV: share of the scene's points that vote
+  std::size_t proposals = 5; ///< of each model, refined and compared
 };
 
 /** \brief Looks for one model. Results are motions from its coordinates to the scene's, the most
