@@ -5,6 +5,7 @@
 #include "evaluation/scoring.h"
 #include "scene_items.h"
 #include "sensor_options.h"
+#include "thread_time.h"
 
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/recognition/scene_training.h"
@@ -14,8 +15,6 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-
-#include <time.h>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -57,15 +56,6 @@ viewpointsOf(const Options& o)
     for (const auto& pose : sensorPoses(o.sensing.views))
       out.push_back(pose.position);
   return out;
-}
-
-/** \brief Processor time of this thread: others may use the machine as well. */
-double
-threadSeconds()
-{
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
 /** \brief What is sensed of a scene, or all of it. */

@@ -9,6 +9,8 @@ packages=(
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )
+# Optional and large: --with-opencv adds the peer of pcl_surflet_evaluate_peers.
+[ "${1:-}" = --with-opencv ] && packages+=(libopencv-contrib-dev)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -2,6 +2,7 @@
  * Whatever can name the object of a cloud: what the experiments compare. */
 #pragma once
 
+#include "thread_time.h"
 #include "experiment/objects.h"
 #include "experiment/output.h"
 #include "pcl_surflet/core/surflet_set.h"
@@ -66,10 +67,6 @@ struct Training {
   unsigned threads; ///< 0: all
   ProgressFunction progress;
 };
-
-/** \brief CPU time of the calling thread in seconds: what a query costs, however busy the machine
- * is. */
-double threadSeconds();
 
 } // namespace apps
 } // namespace pcl_surflet

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include <time.h>
 
 namespace pcl_surflet {
 namespace apps {
@@ -37,14 +36,6 @@ answersTo(const ExperimentObject& object, const Setting& setting, std::uint64_t 
 }
 
 } // namespace
-
-double
-threadSeconds()
-{
-  timespec now{};
-  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 Setting
 fixedSetting(const std::string& name, double x, const Condition& condition)

@@ -1,6 +1,6 @@
 #include "experiment/peers/isolation.h"
 
-#include "experiment/recogniser.h"
+#include "thread_time.h"
 
 #include <cstring>
 
