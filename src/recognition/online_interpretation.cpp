@@ -206,6 +206,7 @@ struct OnlineInterpretation::State {
   bool isSame(const Detection& a, const Detection& b) const;
   void lookAround();
   Indices unexplained() const;
+  bool isRest(const Patch& patch) const;
 };
 
 /** \brief Fills the cells. */
@@ -328,6 +329,17 @@ OnlineInterpretation::State::unexplained() const
   return open;
 }
 
+/** \brief Does it lie within r_max of a detection? Then it is what that lost at its border. */
+bool
+OnlineInterpretation::State::isRest(const Patch& patch) const
+{
+  return std::any_of(detections.begin(), detections.end(), [&](const OnlineDetection& d) {
+    Detection at;
+    at.centroid = patch.centre;
+    return d.state != OnlineState::Vanished && distanceOf(d, at) < database[d.model].r_max;
+  });
+}
+
 /** \brief Finds attractors and distractors. */
 void
 OnlineInterpretation::State::lookAround()
@@ -352,7 +364,7 @@ OnlineInterpretation::State::lookAround()
     if (group.size() < parameters.explanation.steps.min_cluster)
       continue;
     const Patch patch = patchOf(cells.means(), group);
-    if (patch.radius <= largest) // what is larger is background
+    if (patch.radius <= largest && !isRest(patch)) // what is larger is background
       attractors.push_back(attractorAt(patch, kNobody));
   }
 }
