@@ -6,8 +6,8 @@ using namespace pcl_surflet::test;
 namespace {
 
 const char* const kApps[] = {
-    "train",    "classify",   "feature",   "info", "reduce", "generate",     "generate_shape",
-    "evaluate", "experiment", "interpret", "view", "search", "evaluate_pose"};
+    "train",    "classify",   "feature",   "info", "reduce", "generate",      "generate_shape",
+    "evaluate", "experiment", "interpret", "view", "search", "evaluate_pose", "replay"};
 
 struct WrongLine {
   const char* app;
@@ -56,6 +56,8 @@ TEST(Usage, HelpNamesEveryOption)
        {"-database", "-classes", "-top", "-features", "-shortlist", "-exhaustive", "-seed",
         "-threads", "-k", "-csv"}},
       {"reduce", {"-leaf", "-min_normal", "-csv"}},
+      {"replay",
+       {"-database", "-background", "-empty", "-leaf", "-out", "-csv", "-seed", "-threads"}},
       {"evaluate",
        {"-method",   "-treatment", "-scenes",     "-bins",    "-leaf",        "-pairs",
         "-lambda_h", "-lambda_o",  "-lambda_c",   "-min_fit", "-on_surfaces", "-present",
