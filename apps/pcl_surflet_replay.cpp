@@ -5,6 +5,7 @@
 
 #include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/online_scene_interpreter.h"
+#include "pcl_surflet/scene_interpreter.h"
 #include "pcl_surflet/surface_file.h"
 
 #include <pcl/conversions.h>
@@ -19,9 +20,6 @@ using namespace pcl_surflet::apps;
 namespace {
 
 constexpr const char* kProgram = "pcl_surflet_replay";
-/** \brief Cells per diameter of the largest object, where the user does not say. */
-constexpr double kCellsPerDiameter = 50;
-
 struct Options {
   std::string database, empty, out;
   BackgroundTreatment background = BackgroundTreatment::Ignore;
@@ -103,10 +101,7 @@ OnlineParameters
 parametersFor(const ModelDatabase& database, const Options& o)
 {
   OnlineParameters p;
-  p.leaf = o.leaf;
-  for (std::size_t i = 0; i < database.size() && o.leaf == 0; ++i)
-    if (database[i].role == ModelRole::Object)
-      p.leaf = std::max(p.leaf, database[i].delta_max / kCellsPerDiameter);
+  p.leaf = detail::leafOf(o.leaf, database);
   p.explanation.steps.background = o.background;
   p.explanation.steps.seed = o.seed;
   p.explanation.steps.threads = static_cast<unsigned>(o.threads);

@@ -24,8 +24,5 @@ double normalEstimationSeconds(const SurfletSet& cells, unsigned threads);
  */
 double voxelGridSeconds(const SurfletSet& scene, double leaf);
 
-/** \brief 0 if there are none. */
-double medianOf(std::vector<double> values);
-
 } // namespace apps
 } // namespace pcl_surflet

@@ -68,15 +68,5 @@ PoseCounts::operator+=(const PoseCounts& other)
   return *this;
 }
 
-double
-medianOf(std::vector<double> values)
-{
-  if (values.empty())
-    return 0;
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 } // namespace apps
 } // namespace pcl_surflet

@@ -39,8 +39,5 @@ struct PoseCounts {
   PoseCounts& operator+=(const PoseCounts& other);
 };
 
-/** \brief Middle one of the values, 0 if there is none. */
-double medianOf(std::vector<double> values);
-
 } // namespace apps
 } // namespace pcl_surflet

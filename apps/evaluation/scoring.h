@@ -82,5 +82,8 @@ private:
   std::size_t scenes_ = 0;
 };
 
+/** \brief 0 if there are none. */
+double medianOf(std::vector<double> values);
+
 } // namespace apps
 } // namespace pcl_surflet
