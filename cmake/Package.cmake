@@ -3,8 +3,13 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME pcl-surflet)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "pcl_surflet authors <pcl-surflet@localhost.localdomain>" CACHE STRING
-  "Maintainer of the packages: name <address>")
+# Who packs, by Debian's own variables.
+if(DEFINED ENV{DEBEMAIL})
+  set(maintainer "$ENV{DEBFULLNAME} <$ENV{DEBEMAIL}>")
+else()
+  set(maintainer "pcl_surflet authors <pcl-surflet@example.org>")
+endif()
+set(CPACK_PACKAGE_CONTACT ${maintainer})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
 set(CPACK_OUTPUT_FILE_PREFIX packages)
 set(CPACK_STRIP_FILES ON)
@@ -17,16 +22,17 @@ set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(version ${CPACK_PACKAGE_VERSION}-${CPACK_DEBIAN_PACKAGE_RELEASE})
 set(library_package libpcl-surflet${PROJECT_VERSION_MAJOR}.${PROJECT_VERSION_MINOR})
-set(method "Surflet-pair histograms are four-dimensional histograms of the relations between pairs of\n\
- oriented points (Wahl, 2007), the ancestor of PCL's PFH, FPFH and VFH. One small histogram\n\
- per object, trained from a mesh or a scan, finds and names that object in a 3D point cloud.\n .")
+string(CONCAT method "Surflet-pair histograms count the relations between pairs of oriented\n"
+  "points (Wahl, 2007); they are the ancestor of PCL's PFH, FPFH and VFH.\n"
+  "One small histogram per object, trained from a mesh or a scan, finds\n"
+  "and names that object in a 3D point cloud.\n\n")
 
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME ${library_package})
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_RUNTIME_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "Surflet-pair histograms for the Point Cloud Library - library\n\
- ${method}\n This package holds the shared library.")
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/triggers)
+set(CPACK_DEBIAN_RUNTIME_DESCRIPTION "${method}This package holds the shared library.")
 
 # Our classes derive from PCL's, which change between minor versions.
 math(EXPR next_minor "${PCL_VERSION_MINOR} + 1")
@@ -36,17 +42,16 @@ string(CONCAT CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "${library_package} (= ${
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libpcl-surflet-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
-  "Surflet-pair histograms for the Point Cloud Library - development\n\
- ${method}\n This package holds the headers, and what CMake and pkg-config find them by.")
+  "${method}This package holds the headers, and what CMake and pkg-config find\nthem by.")
 
 set(CPACK_DEBIAN_TOOLS_PACKAGE_NAME pcl-surflet-tools)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${library_package} (= ${version})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS xvfb)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_TOOLS_DESCRIPTION "Surflet-pair histograms for the Point Cloud Library - programs\n\
- ${method}\n This package holds the programs: training, classification and search of single objects,\n\
- interpretation and generation of scenes, viewing.")
+string(CONCAT CPACK_DEBIAN_TOOLS_DESCRIPTION "${method}"
+  "This package holds the programs: training, classification and search\n"
+  "of single objects, interpretation and generation of scenes, viewing.")
 
 # What Debian wants beside every package; a plain installation goes without.
 set(debian ${PROJECT_BINARY_DIR}/debian)
