@@ -6,6 +6,7 @@ packages=(
   build-essential ca-certificates cmake ninja-build ccache git
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
   libgtest-dev libbenchmark-dev libnanoflann-dev
+  pkg-config clang lintian fakeroot file  # headers, consumers and packages are tested with them
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )

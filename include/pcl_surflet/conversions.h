@@ -2,6 +2,7 @@
  * From PCL's clouds and meshes to surflets. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
 

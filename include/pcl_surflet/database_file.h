@@ -6,6 +6,7 @@
  * r_mean, r_max, r_min, surface_area, features, tau, floor (F8), histogram (F4 x bins). */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/recognition/model_database.h"
 
 #include <pcl/exceptions.h>

@@ -2,6 +2,7 @@
  * MeanSurfletGrid: one mean surflet per cell, a filter beside pcl::VoxelGrid. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/cell_reduction.h"
 
 #include <pcl/PCLPointCloud2.h>

@@ -2,22 +2,14 @@
  * OctreeRegionSearch: the space representation as a search method of PCL. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/space_search.h"
 
-#include <pcl/pcl_config.h>
 #include <pcl/search/search.h>
 
 #include <type_traits>
 
 namespace pcl_surflet {
-
-namespace compat {
-#if PCL_VERSION_COMPARE(>=, 1, 14, 0)
-using SetInputCloudResult = bool;
-#else
-using SetInputCloudResult = void; ///< pcl::search::Search::setInputCloud() up to PCL 1.13
-#endif
-} // namespace compat
 
 /** \brief Region, nearest-neighbour and box search on the space representation of ch. 4
  * [Wahl 2007], for use wherever PCL takes a pcl::search::Search.
@@ -64,6 +56,7 @@ public:
   using typename Base::IndicesConstPtr;
   using typename Base::PointCloud;
   using typename Base::PointCloudConstPtr;
+  using SetInputCloudResult = compat::SetInputCloudResult<Base>;
 
   enum Backend { Octree, AVL, Linear };
 
@@ -90,9 +83,8 @@ public:
   void setNumberOfThreads(unsigned threads);
 
   /** \brief Builds the representation of \p cloud, or of its points \p indices. */
-  compat::SetInputCloudResult
-  setInputCloud(const PointCloudConstPtr& cloud,
-                const IndicesConstPtr& indices = IndicesConstPtr()) override;
+  SetInputCloudResult setInputCloud(const PointCloudConstPtr& cloud,
+                                    const IndicesConstPtr& indices = IndicesConstPtr()) override;
 
   int nearestKSearch(const PointT& point, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override;

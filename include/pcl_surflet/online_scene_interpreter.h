@@ -2,6 +2,7 @@
  * OnlineSceneInterpreter: takes in scans of a scene one by one and tells what is in it so far. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/recognition/online_interpretation.h"
 
 #include <pcl/point_cloud.h>

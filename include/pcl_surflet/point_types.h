@@ -2,6 +2,8 @@
  * Point types of pcl_surflet, registered with PCL. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
+
 #include <pcl/point_representation.h>
 #include <pcl/register_point_struct.h>
 

@@ -2,6 +2,7 @@
  * PoseEstimator: where detected objects are, in all six degrees of freedom. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/conversions.h"
 #include "pcl_surflet/impl/oriented_input.h"
 #include "pcl_surflet/recognition/pose.h"

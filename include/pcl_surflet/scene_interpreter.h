@@ -2,6 +2,7 @@
  * SceneInterpreter: segments and names the objects of a scene in one filter. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/conversions.h"
 #include "pcl_surflet/recognition/scene_accumulation.h"
 

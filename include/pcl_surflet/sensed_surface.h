@@ -3,6 +3,7 @@
  * directions [Wahl 2007, Sec. 1.5.3]. Normals are PCL's, oriented to the sensor. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/conversions.h"
 
 #include <pcl/point_types.h>

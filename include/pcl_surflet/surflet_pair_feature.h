@@ -2,6 +2,7 @@
  * SurfletPairFeature: the features of the pairs of an oriented cloud. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/point_types.h"
 

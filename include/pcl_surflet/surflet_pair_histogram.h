@@ -2,6 +2,7 @@
  * SurfletPairHistogramEstimation: one histogram per cloud, where VFHEstimation stands. */
 #pragma once
 
+#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/pair_histogram.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/point_types.h"

@@ -153,7 +153,7 @@ OctreeRegionSearch<PointT>::setNumberOfThreads(unsigned threads)
 }
 
 template <typename PointT>
-compat::SetInputCloudResult
+typename OctreeRegionSearch<PointT>::SetInputCloudResult
 OctreeRegionSearch<PointT>::setInputCloud(const PointCloudConstPtr& cloud,
                                           const IndicesConstPtr& indices)
 {
@@ -170,7 +170,7 @@ OctreeRegionSearch<PointT>::setInputCloud(const PointCloudConstPtr& cloud,
     search_ = SpaceSearch();
     good = false;
   }
-  return static_cast<compat::SetInputCloudResult>(good);
+  return static_cast<SetInputCloudResult>(good);
 }
 
 template <typename PointT>
