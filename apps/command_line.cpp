@@ -138,8 +138,9 @@ CommandLine::help() const
   std::string out =
       "Usage: " + program_ + " [options] " + arguments_ + "\n\n" + description_ + "\n\nOptions:\n";
   const auto line = [&](const std::string& left, const std::string& right) {
-    out += "  " + left + std::string(left.size() < kColumn ? kColumn - left.size() : 1, ' ') +
-           right + "\n";
+    const std::string gap = left.size() < kColumn ? std::string(kColumn - left.size(), ' ')
+                                                  : "\n" + std::string(kColumn + 2, ' ');
+    out += "  " + left + gap + right + "\n";
   };
   for (const auto& o : options_)
     line(o.name + (o.value.empty() ? "" : " " + o.value), o.help);
