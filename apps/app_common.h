@@ -57,7 +57,7 @@ public:
               std::function<void(const std::string&)> take);
 
   /** \brief Takes in the command line. After "--" everything is a file.
-   * \return false if help was asked for and has been printed. \throws UsageError */
+   * \return false if help or version was asked for and has been printed. \throws UsageError */
   bool parse(int argc, char** argv);
 
   const std::vector<std::string>&
@@ -82,6 +82,8 @@ private:
   };
 
   Option* find(const std::string& name);
+  /** \brief Prints help or version if \p options ask for it. \return whether they do */
+  bool answer(const std::vector<std::string>& options) const;
 
   std::string program_, arguments_, description_;
   std::vector<Option> options_;

@@ -64,16 +64,29 @@ CommandLine::find(const std::string& name)
 }
 
 bool
+CommandLine::answer(const std::vector<std::string>& options) const
+{
+  const auto asked_for = [&](const char* short_name, const char* long_name) {
+    return std::any_of(options.begin(), options.end(),
+                       [&](const std::string& s) { return s == short_name || s == long_name; });
+  };
+  const bool help_wanted = asked_for("-h", "--help");
+  const bool version_wanted = asked_for("-version", "--version");
+  if (help_wanted)
+    std::cout << help();
+  else if (version_wanted)
+    std::cout << program_ << " (pcl_surflet) " << PCL_SURFLET_VERSION << "\n";
+  return help_wanted || version_wanted;
+}
+
+bool
 CommandLine::parse(int argc, char** argv)
 {
   const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
   const auto end_of_options = std::find(given.begin(), given.end(), "--");
   // Whoever asks for help gets it, whatever else is wrong with the line.
-  if (std::any_of(given.begin(), end_of_options,
-                  [](const std::string& s) { return s == "-h" || s == "--help"; })) {
-    std::cout << help();
+  if (answer({given.begin(), end_of_options}))
     return false;
-  }
   for (auto at = given.begin(); at != end_of_options; ++at) {
     if (at->size() < 2 || (*at)[0] != '-') {
       files_.push_back(*at);
@@ -125,12 +138,14 @@ CommandLine::help() const
   std::string out =
       "Usage: " + program_ + " [options] " + arguments_ + "\n\n" + description_ + "\n\nOptions:\n";
   const auto line = [&](const std::string& left, const std::string& right) {
-    out += "  " + left + std::string(left.size() < kColumn ? kColumn - left.size() : 1, ' ') +
-           right + "\n";
+    const std::string gap = left.size() < kColumn ? std::string(kColumn - left.size(), ' ')
+                                                  : "\n" + std::string(kColumn + 2, ' ');
+    out += "  " + left + gap + right + "\n";
   };
   for (const auto& o : options_)
     line(o.name + (o.value.empty() ? "" : " " + o.value), o.help);
   line("-h, --help", "print this and stop");
+  line("-version, --version", "print the version and stop");
   return out + "\nExit codes: 0 all went well, 1 wrong usage, 2 bad data or I/O.\n";
 }
 

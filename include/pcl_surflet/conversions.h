@@ -16,7 +16,7 @@ namespace pcl_surflet {
 
 /** \brief Surflets of a cloud and where they came from. */
 struct ConvertedSurflets {
-  SurfletSet surflets;
+  SurfletSet surflets;      ///< in the order of the indices, normals of unit length
   pcl::Indices indices;     ///< index in the cloud of each surflet
   std::size_t rejected = 0; ///< points left out: not finite, or a normal without direction
 };

@@ -3,7 +3,8 @@
  *
  * Fields: format_version (U4, now 1), label and condition (U1 x 64, NUL-padded UTF-8), role (U4: 0
  * object, 1 background), member (U4, counts from 0 within a model), resolution (U4 x 4), delta_max,
- * r_mean, r_max, r_min, surface_area, features, tau, floor (F8), histogram (F4 x bins). */
+ * r_mean, r_max, r_min, surface_area, features, tau, floor (F8), misfit, misfit_limit (F8, may be
+ * missing), histogram (F4 x bins). What is checked on loading: doc/database_format.md. */
 #pragma once
 
 #include "pcl_surflet/compat.h"
@@ -18,6 +19,7 @@ namespace pcl_surflet {
 /** \brief A database file that cannot be read or written; what() names file, cause and remedy. */
 class PCL_SURFLET_API DatabaseFileError : public pcl::PCLException {
 public:
+  /** \brief \param description file, cause and remedy */
   explicit DatabaseFileError(const std::string& description)
       : pcl::PCLException(description), description_(description)
   {

@@ -19,6 +19,7 @@ public:
   {
     options_.leaf = leaf;
   }
+  /** \brief 0 if it was not set. */
   double
   getLeafSize() const
   {
@@ -32,6 +33,7 @@ public:
   {
     options_.min_mean_normal = length;
   }
+  /** \brief See setMinimumMeanNormal(). */
   double
   getMinimumMeanNormal() const
   {
@@ -69,9 +71,10 @@ protected:
   bool reduce(const SurfletSet& set, const std::vector<std::int32_t>& indices,
               std::size_t cloud_size, SurfletSet& cells, std::vector<std::int32_t>& first_points);
 
-  CellReductionOptions options_;
-  std::vector<std::uint32_t> cell_of_, counts_;
-  std::size_t cancelled_cells_ = 0;
+  CellReductionOptions options_;       ///< what the setters set
+  std::vector<std::uint32_t> cell_of_; ///< getCellOfPoint()
+  std::vector<std::uint32_t> counts_;  ///< getPointCounts()
+  std::size_t cancelled_cells_ = 0;    ///< getNumberOfCancelledCells()
 };
 
 /** \brief Reduces an oriented cloud to one mean surflet per cell [Wahl 2007, Sec. 4.3.1].
@@ -97,10 +100,14 @@ protected:
 template <typename PointT>
 class MeanSurfletGrid : public pcl::Filter<PointT>, public MeanSurfletGridBase {
 public:
+  ///@{
+  /** \brief As PCL's classes have it. */
   using PointCloud = typename pcl::Filter<PointT>::PointCloud;
   using Ptr = pcl::shared_ptr<MeanSurfletGrid<PointT>>;
   using ConstPtr = pcl::shared_ptr<const MeanSurfletGrid<PointT>>;
+  ///@}
 
+  /** \brief \param extract_removed_indices whether getRemovedIndices() will be asked for */
   explicit MeanSurfletGrid(bool extract_removed_indices = false);
 
 protected:
@@ -110,6 +117,7 @@ protected:
   using pcl::Filter<PointT>::extract_removed_indices_;
   using pcl::Filter<PointT>::filter_name_;
 
+  /** \brief What filter() calls. */
   void applyFilter(PointCloud& output) override;
 };
 
@@ -121,12 +129,17 @@ template <>
 class PCL_SURFLET_API MeanSurfletGrid<pcl::PCLPointCloud2>
     : public pcl::Filter<pcl::PCLPointCloud2>, public MeanSurfletGridBase {
 public:
+  ///@{
+  /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<MeanSurfletGrid<pcl::PCLPointCloud2>>;
   using ConstPtr = pcl::shared_ptr<const MeanSurfletGrid<pcl::PCLPointCloud2>>;
+  ///@}
 
+  /** \brief \param extract_removed_indices whether getRemovedIndices() will be asked for */
   explicit MeanSurfletGrid(bool extract_removed_indices = false);
 
 protected:
+  /** \brief What filter() calls. */
   void applyFilter(pcl::PCLPointCloud2& output) override;
 };
 

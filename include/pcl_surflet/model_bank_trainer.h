@@ -27,6 +27,8 @@ namespace pcl_surflet {
  * same seed gives the same model for any number of threads. */
 class PCL_SURFLET_API ModelBankTrainer {
 public:
+  /** \brief \param trainer resolution, role, seed, threads and the clean member
+   * \param bank the conditions of the other members */
   ModelBankTrainer(HistogramModelTrainer trainer, ModelBank bank);
 
   /** \brief Disturbed samples per member, default 12. \throws std::invalid_argument if 0 */
@@ -35,6 +37,7 @@ public:
   /** \brief As HistogramModelTrainer::train() \throws TrainingError, also if a condition leaves
    * nothing that has a feature */
   HistogramModel train(const std::string& label, const SurfletSet& surflets) const;
+  /** \brief The same of a mesh. */
   HistogramModel train(const std::string& label, const TriangleMesh& mesh) const;
 
 private:

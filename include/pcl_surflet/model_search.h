@@ -16,7 +16,7 @@ namespace pcl_surflet {
 /** \brief A model that resembles the query. */
 struct SearchHit {
   std::size_t model = 0; ///< number in the order of adding
-  std::string label;
+  std::string label;     ///< its name
   double score = 0; ///< mean ln H of the query's features under the model's best member; larger is
                     ///< better
 };
@@ -40,8 +40,8 @@ public:
   /** \brief All models of \p database, with the penalty of the database as it is. */
   explicit ModelSearch(const ModelDatabase& database);
   ~ModelSearch();
-  ModelSearch(ModelSearch&&) noexcept;
-  ModelSearch& operator=(ModelSearch&&) noexcept;
+  ModelSearch(ModelSearch&&) noexcept;            ///< leaves the other only to be destroyed
+  ModelSearch& operator=(ModelSearch&&) noexcept; ///< leaves the other only to be destroyed
 
   /** \brief Adds a model without building the index anew (FLANN does so each time the number of
    * members has doubled). \throws DatabaseError if the model is unusable or of another resolution
@@ -57,7 +57,7 @@ public:
   void setChecks(int checks);
   /** \brief Pairs drawn of a query, 0 (default): HistogramClassifier::defaultFeatures(). */
   void setNumberOfFeatures(std::uint64_t features);
-  void setSeed(std::uint64_t seed);
+  void setSeed(std::uint64_t seed); ///< of the pairs drawn of a query, default 1
 
   /** \brief The \p k best models, best first; fewer if the shortlist holds no more. Empty for a
    * query without features. */
@@ -67,6 +67,7 @@ public:
   std::vector<SearchHit> search(const std::vector<float>& histogram, std::size_t k) const;
   /** \brief As search(), but compares the query with every model. */
   std::vector<SearchHit> searchAll(const SurfletSet& query, std::size_t k) const;
+  /** \brief The same, of a histogram. \throws std::invalid_argument as search() */
   std::vector<SearchHit> searchAll(const std::vector<float>& histogram, std::size_t k) const;
 
 private:

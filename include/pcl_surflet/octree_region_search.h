@@ -49,8 +49,8 @@ class OctreeRegionSearch : public pcl::search::Search<PointT> {
   using Base = pcl::search::Search<PointT>;
 
 public:
-  using Ptr = pcl::shared_ptr<OctreeRegionSearch<PointT>>;
-  using ConstPtr = pcl::shared_ptr<const OctreeRegionSearch<PointT>>;
+  using Ptr = pcl::shared_ptr<OctreeRegionSearch<PointT>>;            ///< as PCL's classes
+  using ConstPtr = pcl::shared_ptr<const OctreeRegionSearch<PointT>>; ///< as PCL's classes
   using Base::nearestKSearch;
   using Base::radiusSearch;
   using typename Base::IndicesConstPtr;
@@ -58,14 +58,20 @@ public:
   using typename Base::PointCloudConstPtr;
   using SetInputCloudResult = compat::SetInputCloudResult<Base>;
 
-  enum Backend { Octree, AVL, Linear };
+  /** \brief Representations; which to take: doc/space.md. */
+  enum Backend {
+    Octree, ///< dynamic, octrees of cells
+    AVL,    ///< dynamic, balanced trees of cells: less memory, slower
+    Linear  ///< static, the fastest
+  };
 
+  /** \brief Empty. \param backend as setBackend() \param sorted as setSortedResults() */
   explicit OctreeRegionSearch(Backend backend = Linear, bool sorted = false);
 
   /** \brief Chooses the representation; points already there are taken over from the input cloud,
    * those added by addPoint() are lost. */
   void setBackend(Backend backend);
-  Backend getBackend() const;
+  Backend getBackend() const; ///< the representation in use
 
   /** \brief Edge of the atomic cells of the dynamic backends, in the cloud's unit; 0 (default):
    * chosen at setInputCloud() for about 32 points a cell (0.01 without a cloud). Takes effect
@@ -86,9 +92,13 @@ public:
   SetInputCloudResult setInputCloud(const PointCloudConstPtr& cloud,
                                     const IndicesConstPtr& indices = IndicesConstPtr()) override;
 
+  /** \brief The \p k points nearest to \p point, or all if there are fewer; indices of the cloud.
+   * \return number of points found */
   int nearestKSearch(const PointT& point, int k, pcl::Indices& k_indices,
                      std::vector<float>& k_sqr_distances) const override;
 
+  /** \brief All points within \p radius; with \p max_nn > 0 at most so many, the nearest.
+   * \return number of points found */
   int radiusSearch(const PointT& point, double radius, pcl::Indices& k_indices,
                    std::vector<float>& k_sqr_distances, unsigned int max_nn = 0) const override;
 
@@ -97,6 +107,7 @@ public:
   void nearestKSearch(const PointCloud& cloud, const pcl::Indices& indices, int k,
                       std::vector<pcl::Indices>& k_indices,
                       std::vector<std::vector<float>>& k_sqr_distances) const override;
+  /** \brief Batch of radiusSearch(), as above. */
   void radiusSearch(const PointCloud& cloud, const pcl::Indices& indices, double radius,
                     std::vector<pcl::Indices>& k_indices,
                     std::vector<std::vector<float>>& k_sqr_distances,

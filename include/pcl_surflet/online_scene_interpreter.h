@@ -20,6 +20,7 @@ public:
 
   /** \brief Takes in a scan in the frame of the scene. Points that are not finite, or whose normal
    * has no direction, are left out.
+   * \param cloud positions
    * \param normals one per point; those that look away from the sensor are turned
    * \param sensor_origin where the sensor was, in the frame of the scene
    * \throws std::invalid_argument if the normals are not as many as the points or the origin is not
@@ -27,6 +28,7 @@ public:
   OnlineScan addScan(const pcl::PointCloud<pcl::PointXYZ>& cloud,
                      const pcl::PointCloud<pcl::Normal>& normals,
                      const Eigen::Vector3f& sensor_origin);
+  /** \brief The same of points that carry their normals. */
   OnlineScan addScan(const pcl::PointCloud<pcl::PointNormal>& cloud,
                      const Eigen::Vector3f& sensor_origin);
 

@@ -16,9 +16,14 @@ namespace pcl_surflet {
  * the indices of the two points in the input cloud. alpha is in radian, delta in the cloud's unit.
  */
 struct SurfletPairSignature {
-  float alpha = 0, beta = 0, gamma = 0, delta = 0;
-  std::uint32_t index_1 = 0, index_2 = 0;
+  float alpha = 0;           ///< radian, in [-pi, pi)
+  float beta = 0;            ///< in [-1, 1]
+  float gamma = 0;           ///< in [-1, 1]
+  float delta = 0;           ///< distance, > 0
+  std::uint32_t index_1 = 0; ///< of one point
+  std::uint32_t index_2 = 0; ///< of the other
 
+  /** \brief Number of floats, as PCL asks for it. */
   static constexpr int
   descriptorSize()
   {
@@ -26,6 +31,7 @@ struct SurfletPairSignature {
   }
 };
 
+/** \brief Writes feature and indices. */
 inline std::ostream&
 operator<<(std::ostream& os, const SurfletPairSignature& p)
 {
@@ -36,8 +42,9 @@ operator<<(std::ostream& os, const SurfletPairSignature& p)
 /** \brief Surflet-pair histogram of a whole cloud at the default resolution 5,5,5,5: shares that
  * sum to 1, alpha fastest, then beta, gamma, delta [Wahl 2007, Fig. 2.2, Eq. 2.23]. */
 struct SurfletPairHistogram625 {
-  float histogram[625] = {};
+  float histogram[625] = {}; ///< shares
 
+  /** \brief Number of floats, as PCL asks for it. */
   static constexpr int
   descriptorSize()
   {
@@ -45,6 +52,7 @@ struct SurfletPairHistogram625 {
   }
 };
 
+/** \brief Writes all bins. */
 inline std::ostream&
 operator<<(std::ostream& os, const SurfletPairHistogram625& p)
 {
@@ -84,6 +92,7 @@ class DefaultPointRepresentation<pcl_surflet::SurfletPairSignature>
 public:
   DefaultPointRepresentation() { nr_dimensions_ = 4; }
 
+  /** \brief Writes the four floats of \p p to \p out. */
   void
   copyToFloatArray(const pcl_surflet::SurfletPairSignature& p, float* out) const override
   {

@@ -51,7 +51,7 @@ PCL_SURFLET_API SurfletSet pointsBeside(const SurfletSet& scene, const std::vect
 template <typename PointT, typename PointNT = PointT>
 class PoseEstimator : public pcl::PCLBase<PointT> {
 public:
-  using Normals = pcl::PointCloud<PointNT>;
+  using Normals = pcl::PointCloud<PointNT>; ///< of the input points
 
   /** \brief One normal per input point, pointing outwards; not needed if the points carry them. */
   void
@@ -79,6 +79,7 @@ public:
   {
     parameters_ = parameters;
   }
+  /** \brief The constants in use, viewpoints included. */
   const PoseParameters&
   getParameters() const
   {

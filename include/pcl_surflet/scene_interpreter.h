@@ -19,6 +19,7 @@
 
 namespace pcl_surflet {
 
+/** \brief How scenes are interpreted. */
 enum class Method {
   Explanation, ///< interpretByExplanation(), the default
   Dissertation ///< interpretByDissertation(), the seven steps as written
@@ -54,13 +55,13 @@ enum class SceneStatus {
 
 /** \brief What the last interpretation did, step by step, and why it ended. */
 struct SceneDiagnostics : InterpretationDiagnostics {
-  SceneStatus status = SceneStatus::NotYet;
-  std::string reason;                ///< status in words; empty if objects were found
-  std::size_t points = 0;            ///< input points that can be used
-  std::size_t rejected = 0;          ///< not finite or without usable normal
-  std::size_t background_points = 0; ///< left out by BackgroundTreatment::Exclude
-  std::size_t planes = 0;            ///< of them: planes found
-  std::size_t cells = 0;             ///< what was interpreted
+  SceneStatus status = SceneStatus::NotYet; ///< how it ended
+  std::string reason;                       ///< status in words; empty if objects were found
+  std::size_t points = 0;                   ///< input points that can be used
+  std::size_t rejected = 0;                 ///< not finite or without usable normal
+  std::size_t background_points = 0;        ///< left out by BackgroundTreatment::Exclude
+  std::size_t planes = 0;                   ///< of them: planes found
+  std::size_t cells = 0;                    ///< what was interpreted
   std::size_t runs = 0;     ///< interpretations that were merged; the counts are the first's
   double leaf = 0;          ///< edge of a cell, in the cloud's unit
   double extent = 0;        ///< diagonal of the cells' bounding box
@@ -172,11 +173,16 @@ PCL_SURFLET_API double coverageOf(std::size_t cells, double area, double leaf);
 template <typename PointT, typename PointNT = PointT>
 class SceneInterpreter : public pcl::FilterIndices<PointT> {
 public:
+  ///@{
+  /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<SceneInterpreter<PointT, PointNT>>;
   using ConstPtr = pcl::shared_ptr<const SceneInterpreter<PointT, PointNT>>;
   using Normals = pcl::PointCloud<PointNT>;
   using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
+  ///@}
 
+  /** \brief \param extract_removed_indices whether getRemovedIndices() lists what filter() takes
+   * out */
   explicit SceneInterpreter(bool extract_removed_indices = false)
       : pcl::FilterIndices<PointT>(extract_removed_indices)
   {
@@ -189,11 +195,14 @@ public:
   {
     normals_ = normals;
   }
+  /** \brief What is known: objects and, for BackgroundTreatment::Model, background models. Copied.
+   */
   void
   setDatabase(const ModelDatabase& database)
   {
     database_ = database;
   }
+  /** \brief Default Explanation. */
   void
   setMethod(Method method)
   {
@@ -204,12 +213,14 @@ public:
    * Default Ignore. Exclude looks at what is left of the input without the background cloud and the
    * planes; without either the user has removed the background, say with setIndices(). */
   ///@{
+  /** \brief Default Ignore. */
   void
   setBackgroundTreatment(BackgroundTreatment treatment)
   {
     request_.parameters.steps.background = treatment;
   }
   /** \brief The scene sensed before there were objects in it; turns to Exclude. Null forgets it.
+   * \param cloud in the frame and unit of the input
    * \param normals as in setInputNormals() */
   void
   setBackgroundCloud(const typename pcl::PointCloud<PointT>::ConstPtr& cloud,
@@ -227,6 +238,7 @@ public:
     request_.planes = planes;
     setBackgroundTreatment(BackgroundTreatment::Exclude);
   }
+  /** \brief What of the input counts as near the background. */
   void
   setExclusionOptions(const ExclusionOptions& options)
   {
@@ -239,6 +251,7 @@ public:
   {
     search_ = search;
   }
+  /** \brief Null before the first use of the default. */
   SearchPtr
   getSearchMethod() const
   {
@@ -260,11 +273,13 @@ public:
   {
     request_.parameters = parameters;
   }
+  /** \brief All constants as they are now. */
   const ExplanationParameters&
   getParameters() const
   {
     return request_.parameters;
   }
+  /** \brief Random seed, default 1. */
   void
   setSeed(std::uint64_t seed)
   {
@@ -322,7 +337,7 @@ public:
    * The output has the size and order of the input cloud. PointXYZLNormal takes the normals of the
    * input (NaN where interpret() had none to work with). */
   void getLabeledCloud(pcl::PointCloud<pcl::PointXYZL>& output);
-  void getLabeledCloud(pcl::PointCloud<pcl::PointXYZLNormal>& output);
+  void getLabeledCloud(pcl::PointCloud<pcl::PointXYZLNormal>& output); ///< the same with normals
 
   /** \brief The same for detections that one has already. */
   template <typename PointOutT>
@@ -330,6 +345,7 @@ public:
                   pcl::PointCloud<PointOutT>& output) const;
 
 protected:
+  /** \brief interpret(), then the indices of the objects' points. */
   void applyFilter(pcl::Indices& indices) override;
 
 private:

@@ -11,16 +11,19 @@ namespace pcl_surflet {
 
 /** \brief How a set of views is taken. */
 struct SceneSensing {
-  DepthSensor sensor;
-  ViewOptions views;
+  DepthSensor sensor;           ///< of every view
+  ViewOptions views;            ///< from where
   double normal_radius = 0.007; ///< neighbourhood of a normal in the unit of the scene, > 0
   unsigned threads = 0;         ///< 0: all; does not change the result
 };
 
 /** \brief A scan with normals that point to its sensor, in the sensor's frame. */
 struct OrientedScan {
-  DepthScan scan;
-  std::vector<float> nx, ny, nz; ///< of each pixel; NaN where there is no point or no normal
+  DepthScan scan; ///< positions
+  ///@{
+  /** \brief Normal of each pixel; NaN where there is no point or no normal. */
+  std::vector<float> nx, ny, nz;
+  ///@}
 };
 
 /** \brief Normals of a scan by pcl::NormalEstimation over the points within \p radius, turned to

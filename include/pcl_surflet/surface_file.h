@@ -25,6 +25,7 @@ struct SurfaceFile {
   std::size_t rejected = 0;         ///< points left out: not finite or without usable normal
 };
 
+/** \brief How loadSurface() reads. */
 struct SurfaceFileOptions {
   /** \brief Neighbours for estimating missing normals (pcl::NormalEstimationOMP, oriented to the
    * file's viewpoint); 0: a cloud without normals is an error. */

@@ -61,9 +61,12 @@ computePairSignatures(const SurfletSet& surflets, const PairFeatureRequest& requ
 template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairSignature>
 class SurfletPairFeature : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
 public:
+  ///@{
+  /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<SurfletPairFeature<PointInT, PointNT, PointOutT>>;
   using ConstPtr = pcl::shared_ptr<const SurfletPairFeature<PointInT, PointNT, PointOutT>>;
   using PointCloudOut = typename pcl::Feature<PointInT, PointOutT>::PointCloudOut;
+  ///@}
 
   SurfletPairFeature() { this->feature_name_ = "SurfletPairFeature"; }
 
@@ -74,6 +77,7 @@ public:
   {
     request_.pairs = pairs;
   }
+  /** \brief See setNumberOfPairs(). */
   std::uint64_t
   getNumberOfPairs() const
   {
@@ -94,6 +98,7 @@ public:
   {
     request_.maximum_distance = distance;
   }
+  /** \brief See setMaximumDistance(). */
   double
   getMaximumDistance() const
   {

@@ -62,10 +62,13 @@ template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairH
 class SurfletPairHistogramEstimation
     : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
 public:
+  ///@{
+  /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>>;
   using ConstPtr =
       pcl::shared_ptr<const SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>>;
   using PointCloudOut = typename pcl::Feature<PointInT, PointOutT>::PointCloudOut;
+  ///@}
 
   SurfletPairHistogramEstimation() { this->feature_name_ = "SurfletPairHistogramEstimation"; }
 
@@ -89,6 +92,7 @@ public:
   {
     request_.pairs = pairs;
   }
+  /** \brief Seed of the drawn pairs, default 1. */
   void
   setSeed(std::uint64_t seed)
   {

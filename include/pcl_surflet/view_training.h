@@ -24,7 +24,12 @@ PCL_SURFLET_API SceneSensing sensingFor(const SceneItem& item, double leaf);
  * objects with a foot, of 10 kB each at 7,7,7,7. Views that show too little are left out. Nothing
  * is learned of surfaces that no sensor sees: the bottom, the inside of a vase.
  *
+ * \param trainer resolution and role of the model
+ * \param item the object as it stands, with a mesh
+ * \param sensing the sensor and its places, like those of the scenes to come
  * \param leaf edge of the cells, as in the scenes to come
+ * \param seed of noise and orientations
+ * \param threads 0: all; does not change the result
  * \throws TrainingError, std::invalid_argument as trainForScenes() and senseAlone() */
 PCL_SURFLET_API HistogramModel trainForSensors(const HistogramModelTrainer& trainer,
                                                const SceneItem& item, const SceneSensing& sensing,

@@ -5,9 +5,10 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {
-    "train",    "classify",   "feature",   "info", "reduce", "generate",      "generate_shape",
-    "evaluate", "experiment", "interpret", "view", "search", "evaluate_pose", "replay"};
+const char* const kApps[] = {"train",         "classify",       "feature",        "info",
+                             "reduce",        "generate",       "generate_shape", "evaluate",
+                             "experiment",    "interpret",      "view",           "search",
+                             "evaluate_pose", "evaluate_peers", "replay"};
 
 struct WrongLine {
   const char* app;
@@ -39,6 +40,18 @@ TEST(Usage, HelpGoesToStdoutAndSucceeds)
         EXPECT_NE(r.out.find(word), std::string::npos) << app << ": " << word;
     }
   EXPECT_EQ(run("train", {"-nonsense", "-h"}).code, 0) << "asking for help is never wrong";
+}
+
+TEST(Usage, VersionIsThatOfTheProject)
+{
+  for (const std::string app : kApps)
+    for (const auto* flag : {"-version", "--version"}) {
+      const AppRun r = run(app, {flag, "-nonsense"});
+      EXPECT_EQ(r.code, 0) << app;
+      EXPECT_EQ(r.err, "") << app;
+      EXPECT_EQ(r.out, "pcl_surflet_" + app + " (pcl_surflet) " PCL_SURFLET_VERSION "\n");
+    }
+  EXPECT_EQ(run("train", {"-database", "d.pcd", "--", "-version"}).code, 2) << "this is a file";
 }
 
 TEST(Usage, HelpNamesEveryOption)

@@ -53,7 +53,7 @@ main()
   pcl::NormalEstimationOMP<pcl::PointXYZ, pcl::Normal> estimation;
   estimation.setInputCloud(cloud);
   estimation.setKSearch(20);
-  estimation.setViewPoint(10, 0, 0);
+  estimation.setViewPoint(10, 0, 0); // your sensor's place: normals must point outwards
   estimation.compute(normals);
 
   const auto database = pcl_surflet::loadDatabase(path);

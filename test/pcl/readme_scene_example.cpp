@@ -59,7 +59,7 @@ main()
   interpreter.setInputCloud(cloud);
   interpreter.setInputNormals(normals);
   interpreter.setDatabase(pcl_surflet::loadDatabase(path));
-  interpreter.setBackgroundPlanes({pcl_surflet::BackgroundPlane()});
+  interpreter.setBackgroundPlanes({pcl_surflet::BackgroundPlane()}); // the objects stand on a table
   const auto objects = interpreter.interpret();
   for (const auto& object : objects)
     std::printf("%s: %zu points, confidence %.2f\n", object.label.c_str(), object.indices.size(),

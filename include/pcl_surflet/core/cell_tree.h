@@ -17,7 +17,7 @@ struct Cell {
   Surflet mean; ///< the normal is zero where there is none or where normals cancel exactly
   /** \brief Length of the mean of the normals, in [0, 1]: near 0 the direction means nothing. */
   float normal_agreement = 0;
-  std::uint32_t count = 0;
+  std::uint32_t count = 0; ///< points it stands for, >= 1
 };
 
 /** \brief The cube that a tree subdivides [Wahl 2007, Eq. 4.2]. */
@@ -26,6 +26,7 @@ struct PCL_SURFLET_API CubeFrame {
   double edge = 1;                       ///< e0 > 0
   int depth = 8;                         ///< d_max in [0, 63]; atomic cells have edge e0 / 2^d_max
 
+  /** \brief Whole numbers of a cell along x, y, z, each in [0, 2^depth). */
   using Coordinates = std::array<std::uint64_t, 3>;
 
   /** \brief Edge of a cell on level \p d. */
@@ -57,6 +58,7 @@ public:
    */
   virtual bool remove(PointIndex id, const Surflet& s) = 0;
 
+  /** \brief Number of occupied atomic cells. */
   virtual std::size_t cellCount() const = 0;
 
   /** \brief Calls \p visit for every occupied cell in the order of the keys. */
@@ -65,6 +67,7 @@ public:
   /** \brief Region search on the cells: those whose mean position lies in F(r, q). */
   virtual void regionCells(const Position& q, double radius, std::vector<Cell>& cells) const = 0;
 
+  /** \brief The cube that is subdivided. */
   virtual const CubeFrame& frame() const = 0;
 };
 

@@ -34,7 +34,10 @@ PCL_SURFLET_API SurfletSet cutByRandomPlane(const SurfletSet& set, double visibl
  *
  * Hidden is what lies behind the foremost surflet of its cell of 1.5 \p spacing, by more than the
  * surface's own slope explains; surflets seen at less than 6 degrees are left out.
- * \param spacing distance between neighbouring surflets, > 0, else std::invalid_argument */
+ * \param set of even density
+ * \param spacing distance between neighbouring surflets, > 0, else std::invalid_argument
+ * \param noise largest displacement in the unit of the set, >= 0
+ * \param seed of the direction and the noise */
 PCL_SURFLET_API SurfletSet singleView(const SurfletSet& set, double spacing, double noise,
                                       std::uint64_t seed);
 

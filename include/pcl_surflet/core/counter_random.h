@@ -20,8 +20,10 @@ mix64(std::uint64_t v)
 /** \brief Random-access stream of numbers; also a C++ UniformRandomBitGenerator. */
 class CounterRandom {
 public:
+  /** \brief What operator()() gives. */
   using result_type = std::uint64_t;
 
+  /** \brief Streams of one seed are independent of each other. */
   explicit CounterRandom(std::uint64_t seed, std::uint64_t stream = 0)
       : key_(mix64(mix64(seed) ^ stream))
   {
@@ -33,16 +35,19 @@ public:
   {
     return mix64(key_ ^ mix64(i));
   }
+  /** \brief The next value: at(0), at(1) and so on. */
   result_type
   operator()()
   {
     return at(counter_++);
   }
+  /** \brief Smallest value, as the standard library asks for it. */
   static constexpr result_type
   min()
   {
     return 0;
   }
+  /** \brief Largest value. */
   static constexpr result_type
   max()
   {

@@ -19,10 +19,13 @@ namespace pcl_surflet {
  * Triangles that share an edge leave no gap. */
 class PCL_SURFLET_API DepthBuffer {
 public:
+  /** \brief Corner of a triangle in the picture. */
   struct Corner {
-    double column = 0, row = 0, nearness = 0;
+    double column = 0;   ///< in pixels, to the right
+    double row = 0;      ///< in pixels, downwards
+    double nearness = 0; ///< larger: nearer
   };
-  static constexpr std::uint32_t nothing = 0xffffffffu;
+  static constexpr std::uint32_t nothing = 0xffffffffu; ///< id of a pixel that shows no triangle
 
   /** \throws std::invalid_argument if there is no pixel, or there are more than 2^26 */
   DepthBuffer(std::size_t columns, std::size_t rows);
@@ -31,11 +34,13 @@ public:
    * or not finite leaves no trace. */
   void draw(const std::array<Corner, 3>& triangle, std::uint32_t id);
 
+  /** \brief Width of the picture in pixels. */
   std::size_t
   columns() const
   {
     return columns_;
   }
+  /** \brief Height of the picture in pixels. */
   std::size_t
   rows() const
   {
@@ -47,7 +52,7 @@ public:
   {
     return nearness_[row * columns_ + column];
   }
-  /** \brief Of the triangle that the pixel shows, or \ref nothing. */
+  /** \brief Of the triangle that the pixel shows, or DepthBuffer::nothing. */
   std::uint32_t
   id(std::size_t column, std::size_t row) const
   {

@@ -20,7 +20,8 @@ struct SensedBody {
 
 /** \brief Where a sensor is and where it looks. */
 struct SensorPose {
-  std::array<double, 3> position{0, 0, 1}, target{0, 0, 0};
+  std::array<double, 3> position{0, 0, 1}; ///< of the sensor, in the scene
+  std::array<double, 3> target{0, 0, 0};   ///< a point in the middle of the picture
   /** \brief Upwards in the picture, as far as the view allows; if it looks along this direction,
    * another one is taken. */
   std::array<double, 3> up{0, 0, 1};
@@ -29,11 +30,12 @@ struct SensorPose {
 /** \brief Parameters of sense(); lengths in the unit of the scene (metres by default), angles in
  * degrees. Defaults are those of a noiseless camera. */
 struct DepthSensor {
-  std::size_t columns = 640, rows = 480; ///< pixels, together at most 2^26
-  double opening = 57;                   ///< across the columns, in (0, 170]; pixels are square
-  double noise = 0;       ///< standard deviation of the depth (along forward) at depth 1, >= 0
-  double noise_power = 0; ///< by which power of the depth it grows, in [0, 4]; triangulation: 2
-  double quantum = 0;     ///< depths are whole multiples of it; 0: any depth; >= 0
+  std::size_t columns = 640; ///< pixels, >= 1
+  std::size_t rows = 480;    ///< pixels, >= 1; rows * columns at most 2^26
+  double opening = 57;       ///< across the columns, in (0, 170]; pixels are square
+  double noise = 0;          ///< standard deviation of the depth (along forward) at depth 1, >= 0
+  double noise_power = 0;    ///< by which power of the depth it grows, in [0, 4]; triangulation: 2
+  double quantum = 0;        ///< depths are whole multiples of it; 0: any depth; >= 0
   /** \brief Share of the pixels at depth edges that measure something between both sides, in
    * [0, 1]. Such points belong to nothing: label and instance 0. */
   double flying = 0;
@@ -46,13 +48,19 @@ struct DepthSensor {
 
 /** \brief Cartesian frame of a sensor: x to the right, y down, z forward. */
 struct SensorFrame {
-  std::array<double, 3> position{0, 0, 0}, right{1, 0, 0}, down{0, 1, 0}, forward{0, 0, 1};
+  std::array<double, 3> position{0, 0, 0}; ///< origin, in the scene
+  std::array<double, 3> right{1, 0, 0};    ///< unit vector in the scene, x of the sensor
+  std::array<double, 3> down{0, 1, 0};     ///< unit vector in the scene, y of the sensor
+  std::array<double, 3> forward{0, 0, 1};  ///< unit vector in the scene, z of the sensor
 
+  /** \brief At the origin, along +z. */
   SensorFrame() = default;
   /** \throws std::invalid_argument if the pose is not finite or looks nowhere */
   PCL_SURFLET_API explicit SensorFrame(const SensorPose& pose);
 
+  /** \brief From the sensor's coordinates to the scene's. */
   PCL_SURFLET_API std::array<double, 3> toScene(const std::array<double, 3>& point) const;
+  /** \brief From the scene's coordinates to the sensor's. */
   PCL_SURFLET_API std::array<double, 3> toSensor(const std::array<double, 3>& point) const;
   /** \brief (w, x, y, z) of the rotation from sensor to scene, w >= 0. */
   PCL_SURFLET_API std::array<double, 4> quaternion() const;
@@ -60,10 +68,15 @@ struct SensorFrame {
 
 /** \brief An organised picture of points, row by row. */
 struct DepthScan {
-  SensorFrame frame;
-  std::size_t columns = 0, rows = 0;
-  std::vector<float> x, y, z; ///< in the sensor's frame; NaN in all three: no return
-  std::vector<std::uint32_t> labels, instances; ///< of each pixel; 0 also where nothing returns
+  SensorFrame frame;       ///< of the sensor in the scene
+  std::size_t columns = 0; ///< pixels of a row
+  std::size_t rows = 0;    ///< number of rows
+  ///@{
+  /** \brief Of each pixel, in the sensor's frame; NaN in all three: no return. */
+  std::vector<float> x, y, z;
+  ///@}
+  std::vector<std::uint32_t> labels;    ///< SensedBody::label of each pixel; 0 without return
+  std::vector<std::uint32_t> instances; ///< SensedBody::instance of each pixel; 0 without return
 };
 
 /** \brief What a sensor measures of \p bodies.
@@ -83,7 +96,7 @@ enum class ViewSet {
 
 /** \brief Places of the sensor; angles in degrees. */
 struct ViewOptions {
-  ViewSet views = ViewSet::Ring24;
+  ViewSet views = ViewSet::Ring24;          ///< how many, and where
   std::array<double, 3> target{0, 0, 0.05}; ///< that every sensor looks at
   double distance = 1.4;                    ///< from there, > 0
   double elevation = 45;                    ///< above the horizon; the upper ring; in (-90, 90)

@@ -6,9 +6,14 @@
 
 namespace pcl_surflet {
 
-/** Scalar is the oracle: one pair at a time. Baseline is the fallback, four lanes of what every
- * processor of the platform has. */
-enum class InstructionSet { Automatic, Scalar, Baseline, Avx2, Avx512 };
+/** \brief Instruction sets for which there are kernels. */
+enum class InstructionSet {
+  Automatic, ///< the best that the processor offers
+  Scalar,    ///< the oracle: one pair at a time
+  Baseline,  ///< the fallback: four lanes of what every processor of the platform has
+  Avx2,      ///< eight lanes
+  Avx512     ///< sixteen lanes
+};
 
 /** \brief Selects the kernels of all later calls in this process; Automatic takes the best the
  * processor offers. For tests and benchmarks: results do not depend on it, only speed does.

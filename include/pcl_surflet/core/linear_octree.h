@@ -11,17 +11,17 @@ namespace pcl_surflet {
 
 /** \brief Where points lie in memory: coordinates x, y, z of point i at xyz + i * stride. */
 struct PointArray {
-  const float* x = nullptr;
-  const float* y = nullptr;
-  const float* z = nullptr;
-  std::size_t stride = 1; ///< in floats, between consecutive points
-  std::size_t size = 0;
+  const float* x = nullptr; ///< of the first point
+  const float* y = nullptr; ///< of the first point
+  const float* z = nullptr; ///< of the first point
+  std::size_t stride = 1;   ///< in floats, between consecutive points
+  std::size_t size = 0;     ///< number of points
 };
 
 /** \brief Consecutive places [begin, end) in the order of a LinearOctree. */
 struct PlaceRange {
-  std::uint32_t begin = 0;
-  std::uint32_t end = 0;
+  std::uint32_t begin = 0; ///< first place
+  std::uint32_t end = 0;   ///< behind the last one
 };
 
 /** \brief Static octree: points sorted by their Morton key, every node a range of them.
@@ -42,6 +42,7 @@ struct PlaceRange {
  * overlap so much that small queries take twice as long). */
 class PCL_SURFLET_API LinearOctree : public RegionIndex {
 public:
+  /** \brief How it is built; results do not depend on it. */
   struct Options {
     /** \brief Kernels of this octree; there are none for Baseline, which takes the scalar ones, and
      * sets this machine lacks take the next lower. Results do not depend on it. */
@@ -50,8 +51,8 @@ public:
 
   LinearOctree();
   ~LinearOctree() override;
-  LinearOctree(LinearOctree&&) noexcept;
-  LinearOctree& operator=(LinearOctree&&) noexcept;
+  LinearOctree(LinearOctree&&) noexcept;            ///< leaves the other only to be destroyed
+  LinearOctree& operator=(LinearOctree&&) noexcept; ///< leaves the other only to be destroyed
 
   /** \brief Replaces the content by \p points, or by those of them that \p subset names.
    *
@@ -62,7 +63,7 @@ public:
   void build(const PointArray& points, const std::vector<PointIndex>* subset = nullptr);
 
   void setOptions(const Options& options); ///< for the next build()
-  const Options& options() const;
+  const Options& options() const;          ///< those of setOptions()
 
   std::size_t size() const override;
   std::size_t memoryUsage() const override;

@@ -54,10 +54,10 @@ compact3(std::uint64_t v)
 template <int Dim, int Words>
 class BasicMortonKey {
 public:
-  static constexpr int bits_per_digit = Dim;
-  static constexpr int digits_per_word = 64 / Dim;
-  static constexpr int max_depth = digits_per_word * Words;
-  using Coordinates = std::array<std::uint64_t, 3>;
+  static constexpr int bits_per_digit = Dim;                ///< one bit per axis
+  static constexpr int digits_per_word = 64 / Dim;          ///< whole digits
+  static constexpr int max_depth = digits_per_word * Words; ///< most levels of a key
+  using Coordinates = std::array<std::uint64_t, 3>;         ///< whole numbers of a cell, x y z
 
   /** \brief The key of depth 0: the whole cube. */
   constexpr BasicMortonKey() = default;
@@ -103,6 +103,7 @@ public:
     return key;
   }
 
+  /** \brief Number of digits, the level of the cell, in [0, max_depth]. */
   constexpr int
   depth() const
   {
@@ -175,17 +176,20 @@ public:
     return text;
   }
 
+  /** \brief The words, coarsest digits first; fromWords() takes them back. */
   constexpr const std::array<std::uint64_t, Words>&
   words() const
   {
     return words_;
   }
+  /** \brief Word \p w in [0, Words). */
   constexpr std::uint64_t
   word(int w) const
   {
     return words_[w];
   }
 
+  /** \brief The same cell on the same level. */
   friend constexpr bool
   operator==(const BasicMortonKey& a, const BasicMortonKey& b)
   {
@@ -196,6 +200,7 @@ public:
         return false;
     return true;
   }
+  /** \brief Not equal. */
   friend constexpr bool
   operator!=(const BasicMortonKey& a, const BasicMortonKey& b)
   {

@@ -20,10 +20,13 @@ namespace pcl_surflet {
  * Fewer than 2^29 surflets (std::length_error). */
 class PCL_SURFLET_API PairSource {
 public:
+  /** \brief Copies \p set, whose surflets must be finite with normals of unit length
+   * (SurfletSet::appendChecked()). \throws std::length_error for 2^29 surflets or more */
   explicit PairSource(const SurfletSet& set);
-  PairSource(PairSource&&) = default;
-  PairSource& operator=(PairSource&&) = default;
+  PairSource(PairSource&&) = default;            ///< leaves the other only to be destroyed
+  PairSource& operator=(PairSource&&) = default; ///< leaves the other only to be destroyed
 
+  /** \brief Number of surflets. */
   std::size_t
   size() const
   {
@@ -35,6 +38,7 @@ public:
   {
     return unit_.scale;
   }
+  /** \brief The surflets, centred and scaled. */
   const SurfletSet&
   columns() const
   {
@@ -55,6 +59,8 @@ private:
 
 /** \brief Features of all m(m-1)/2 pairs [Wahl 2007, Eq. 2.19]; each unordered pair once.
  *
+ * \param source the surflets
+ * \param resolution intervals in every dimension
  * \param delta_max in the unit of the set, > 0; longer pairs go to the last delta interval
  * \param threads 0: all; the result is the same for any number
  * \throws std::invalid_argument for an unusable resolution or delta_max */
@@ -86,12 +92,13 @@ PCL_SURFLET_API PairHistogram countStreamedPairs(const PairSource& source,
 /** \brief Drawn features as far as models of one angular resolution need them: each model maps
  * delta with its own delta_max [Wahl 2007, Eq. 3.4]. */
 struct PCL_SURFLET_API FeatureSample {
-  Resolution resolution;
+  Resolution resolution;                  ///< of \ref angular_bin and of bins()
   std::vector<std::uint32_t> angular_bin; ///< bin of (alpha, beta, gamma), < angularBins()
   std::vector<float> delta_squared;       ///< squared distance, times scale^2
-  double scale = 1;
-  std::uint64_t rejected = 0; ///< pairs drawn without feature
+  double scale = 1;                       ///< PairSource::scale()
+  std::uint64_t rejected = 0;             ///< pairs drawn without feature
 
+  /** \brief Number of features. */
   std::size_t
   size() const
   {
@@ -127,9 +134,13 @@ PCL_SURFLET_API void featuresOfPairs(const PairSource& source, const Resolution&
  * begin[i] on. Twice as fast as featuresOfPairs(), as partners are read in order. */
 class PCL_SURFLET_API PairRows {
 public:
-  std::vector<std::uint32_t> surflet, begin, count;
+  std::vector<std::uint32_t> surflet; ///< of each row, below the source's size()
+  std::vector<std::uint32_t> begin;   ///< its first partner, below numberOfPartners()
+  std::vector<std::uint32_t> count;   ///< its number of partners
 
+  /** \brief Removes all rows; the partners stay. */
   void clearRows();
+  /** \brief Adds the pairs of \p surflet with the partners [begin, begin + count). */
   void addRow(std::uint32_t surflet, std::size_t begin, std::size_t count);
   /** \brief Copies the surflets at \p indices, which must be below source.size(), as partners. */
   void setPartners(const PairSource& source, const std::vector<std::uint32_t>& indices);
@@ -139,6 +150,7 @@ public:
   {
     return partners_;
   }
+  /** \brief Number of partners, without the padding. */
   std::size_t
   numberOfPartners() const
   {

@@ -15,10 +15,13 @@ namespace pcl_surflet {
  * Intervals cover alpha in [-pi, pi), beta and gamma in [-1, 1], delta in (0, delta_max].
  * Odd numbers keep the pairs of a plane (alpha = beta = gamma = 0) in the middle of a bin. */
 struct PCL_SURFLET_API Resolution {
-  static constexpr int kMaxPerDimension = 64;
-  static constexpr int kMaxBins = 1 << 20;
+  static constexpr int kMaxPerDimension = 64; ///< most intervals of one dimension
+  static constexpr int kMaxBins = 1 << 20;    ///< most bins of a histogram
 
-  int alpha = 5, beta = 5, gamma = 5, delta = 5;
+  int alpha = 5; ///< intervals of alpha, in [1, 64]
+  int beta = 5;  ///< intervals of beta, in [1, 64]
+  int gamma = 5; ///< intervals of gamma, in [1, 64]
+  int delta = 5; ///< intervals of delta, in [1, 64]
 
   /** \brief Number of bins, d = d_alpha * d_beta * d_gamma * d_delta. */
   int
@@ -34,13 +37,16 @@ struct PCL_SURFLET_API Resolution {
   }
   /** \brief Empty if every dimension is in [1, 64] and bins() <= 2^20, else what is wrong. */
   std::string problem() const;
+  /** \brief As the programs write it: "5,5,5,5". */
   std::string toString() const;
 
+  /** \brief Equal in every dimension. */
   bool
   operator==(const Resolution& o) const
   {
     return alpha == o.alpha && beta == o.beta && gamma == o.gamma && delta == o.delta;
   }
+  /** \brief Different in some dimension: such histograms cannot be compared. */
   bool
   operator!=(const Resolution& o) const
   {
@@ -58,11 +64,12 @@ PCL_SURFLET_API int binIndex(const PairFeature& f, const Resolution& resolution,
  *
  * Integers, so that the sum over blocks of work does not depend on their order. */
 struct PCL_SURFLET_API PairHistogram {
-  Resolution resolution;
+  Resolution resolution;             ///< what the bins mean
   std::vector<std::uint64_t> counts; ///< resolution.bins() entries
   std::uint64_t features = 0;        ///< sum of counts
   std::uint64_t rejected = 0;        ///< pairs without feature
 
+  /** \brief No feature yet. \param r must have no Resolution::problem() */
   explicit PairHistogram(const Resolution& r = {})
       : resolution(r), counts(static_cast<std::size_t>(r.bins()), 0)
   {

@@ -17,8 +17,8 @@ namespace pcl_surflet {
 
 /** \brief A thing that can be put into a scene; upright means z up. */
 struct SceneItem {
-  std::string label;
-  double area = 0; ///< squared unit
+  std::string label; ///< its name in a database
+  double area = 0;   ///< squared unit
   /** \brief Draws n surflets uniformly by area with a seed. */
   std::function<SurfletSet(std::size_t n, std::uint64_t seed)> sample;
   /** \brief The item as a mesh, for sensors; a shape's has some 20,000 vertices. */
@@ -28,8 +28,9 @@ struct SceneItem {
 /** \brief A mesh of the shape with roughly as many vertices. */
 PCL_SURFLET_API TriangleMesh meshOf(const Shape& shape, double vertices);
 
+/** \brief A shape as an item: samples are exact, the mesh is approximate. */
 PCL_SURFLET_API SceneItem sceneItem(const std::string& label, const Shape& shape);
-/** \throws std::invalid_argument with mesh.problem() */
+/** \brief A mesh as an item. \throws std::invalid_argument with mesh.problem() */
 PCL_SURFLET_API SceneItem sceneItem(const std::string& label, const TriangleMesh& mesh);
 
 /** \brief How an object stands. All are turned about the vertical at random first. */
@@ -68,11 +69,11 @@ enum class Background {
 
 /** \brief Parameters of generateScene(); lengths in the unit of the items (metres by default). */
 struct SceneOptions {
-  Posture posture = Posture::Upright;
-  Spacing spacing = Spacing::Apart;
-  double distance_factor = 1.0; ///< of Eq. 5.22, >= 0
-  double gap = 0;               ///< along the sliding direction of a pile, >= 0
-  Background background = Background::Plane;
+  Posture posture = Posture::Upright;        ///< of the objects and the clutter
+  Spacing spacing = Spacing::Apart;          ///< between them
+  double distance_factor = 1.0;              ///< of Eq. 5.22, >= 0
+  double gap = 0;                            ///< along the sliding direction of a pile, >= 0
+  Background background = Background::Plane; ///< what they stand on
   double size = 1.0;        ///< edge of table, corner and box; diameter of the bowl's opening; > 0
   double wall_height = 0.3; ///< of corner and box, > 0
   /** \brief Surflets per squared unit, > 0. The default gives 770,000 surflets for the seven
@@ -82,27 +83,27 @@ struct SceneOptions {
   double noise = 0;
   std::size_t present = ~std::size_t{0}; ///< objects present, chosen at random; more than all: all
   std::size_t clutter = 0;               ///< unknown things present, chosen from the clutter list
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;                ///< of places, turns, samples and noise
 };
 
 /** \brief One thing in a scene. */
 struct PlacedItem {
-  std::string label;
+  std::string label;                ///< SceneItem::label
   std::uint32_t number = 0;         ///< its label in Scene::labels
   bool clutter = false;             ///< unknown to the database
   std::array<double, 16> pose{};    ///< item to scene, 4 x 4, row by row
   std::array<double, 3> centroid{}; ///< of its surflets, in the scene
-  double r_mean = 0; ///< mean distance of its surflets to the centroid [Wahl 2007, Eq. 2.24]
-  std::size_t surflets = 0;
+  double r_mean = 0;        ///< mean distance of its surflets to the centroid [Wahl 2007, Eq. 2.24]
+  std::size_t surflets = 0; ///< number of its surflets
 };
 
 /** \brief A scene and the truth about it. */
 struct Scene {
-  SurfletSet surflets; ///< background first, then the items in the order of \ref items
+  SurfletSet surflets; ///< background first, then the items in the order of Scene::items
   /** \brief 0 background, i + 1 object i of the list, objects + j + 1 thing j of the clutter. */
   std::vector<std::uint32_t> labels;
   std::vector<std::uint32_t> instances; ///< 0 background, k + 1 for items[k]
-  std::vector<PlacedItem> items;
+  std::vector<PlacedItem> items;        ///< in the order of placing
 };
 
 /** \brief Puts \p objects (name an item twice for two instances) and things from \p clutter on a

@@ -22,29 +22,36 @@ enum class Criterion {
   NormalizedLikelihood ///< sum of ln H of the features / sum of ln H of the bins, Eq. 3.18; smaller
 };
 
+/** \brief Whether less of this criterion is more alike. */
 PCL_SURFLET_API bool smallerIsBetter(Criterion criterion);
 
 /** \brief Name used by the apps: euclidean, intersection, chi1, chi2, kullback, likelihood,
  * normalized. */
 PCL_SURFLET_API const char* criterionName(Criterion criterion);
+/** \brief The criterion of that name (criterionName()), or nothing. */
 PCL_SURFLET_API std::optional<Criterion> criterionByName(const std::string& name);
 /** \brief All criteria, in the order of the enumeration. */
 PCL_SURFLET_API const std::vector<Criterion>& allCriteria();
 
+/** \brief Shares of the bins, as many as Resolution::bins(): >= 0, sum 1. */
 using Histogram = std::vector<double>;
 
 /** \name Criteria between two normalised histograms of equal size
  * H must be free of zeros (penalize()) for ChiSquared1, KullbackLeibler and the likelihoods. */
 ///@{
+/** \brief Eq. 3.5, in [0, 2]. */
 PCL_SURFLET_API double squaredEuclidean(const Histogram& h, const Histogram& q);
+/** \brief Eq. 3.7, in [0, 1]; 1 for equal histograms. */
 PCL_SURFLET_API double intersection(const Histogram& h, const Histogram& q);
+/** \brief Eq. 3.9, >= 0. */
 PCL_SURFLET_API double chiSquared1(const Histogram& h, const Histogram& q);
-/** \brief Bins empty in both contribute nothing. */
+/** \brief Eq. 3.10, in [0, 2]; bins empty in both contribute nothing. */
 PCL_SURFLET_API double chiSquared2(const Histogram& h, const Histogram& q);
-/** \brief Where Q is zero its limit is taken (Q ln Q = 0) and ln Q is floored at ln \p h_min: such
- * a bin contributes H ln (H / h_min). */
+/** \brief Eq. 3.14, >= 0. Where Q is zero its limit is taken (Q ln Q = 0) and ln Q is floored at ln
+ * \p h_min: such a bin contributes H ln (H / h_min). */
 PCL_SURFLET_API double kullbackLeibler(const Histogram& h, const Histogram& q, double h_min);
-/** \brief Mean of ln H over the features of Q. \p log_h holds ln H. */
+/** \brief Mean of ln H over the features of Q, Eq. 3.16 and 3.17, <= 0. \p log_h holds
+ * ln H. */
 PCL_SURFLET_API double meanLogLikelihood(const Histogram& log_h, const Histogram& q);
 ///@}
 

@@ -15,19 +15,21 @@ enum class SpaceBackend { Octree, Avl, Linear };
  * Const calls may run in several threads at once. */
 class PCL_SURFLET_API SpaceSearch {
 public:
+  /** \brief What is built, and how. */
   struct Options {
-    SpaceBackend backend = SpaceBackend::Linear;
+    SpaceBackend backend = SpaceBackend::Linear; ///< the representation
     double cell = 0; ///< edge of an atomic cell (dynamic backends); 0: about 32 points per cell
     int depth = 8;   ///< d_max of a cube (dynamic backends), in [0, 63]
     unsigned threads = 1; ///< for batches and for searches across cubes; 0 = all of the machine
-    LinearOctree::Options linear;
+    LinearOctree::Options linear; ///< of the static backend
   };
 
   SpaceSearch();
+  /** \brief Empty. \throws std::invalid_argument for options out of range */
   explicit SpaceSearch(const Options& options);
   ~SpaceSearch();
-  SpaceSearch(SpaceSearch&&) noexcept;
-  SpaceSearch& operator=(SpaceSearch&&) noexcept;
+  SpaceSearch(SpaceSearch&&) noexcept;            ///< leaves the other only to be destroyed
+  SpaceSearch& operator=(SpaceSearch&&) noexcept; ///< leaves the other only to be destroyed
 
   /** \brief Replaces the content; \p normals (x = nullptr: none) serve the mean surflets of the
    * dynamic backends. Non-finite points are left out.
@@ -40,8 +42,12 @@ public:
   void addPoints(PointIndex first, const PointArray& points, const PointArray& normals);
 
   /** \brief Region search.
+   * \param[in] q centre; if not finite, nothing is found
+   * \param[in] radius inclusive; nothing is found if it is negative or NaN
    * \param[in] sorted ascending by distance, ties by index; without it in no particular order
    * \param[in] max_count at most so many points, the nearest ones; 0: all
+   * \param[out] indices the points found, as the user numbers them
+   * \param[out] sqr_distances parallel to \p indices
    * \return number of points found */
   std::size_t radiusSearch(const Position& q, double radius, bool sorted, std::size_t max_count,
                            std::vector<PointIndex>& indices,
@@ -50,9 +56,9 @@ public:
   const RegionIndex& index() const;       ///< never null: an empty LinearOctree at first
   const LinearOctree* linear() const;     ///< null for dynamic backends
   const UnrestrictedSpace* space() const; ///< null for the static backend
-  UnrestrictedSpace* space();
-  const Options& options() const;
-  void setThreads(unsigned threads);
+  UnrestrictedSpace* space();             ///< to be changed; null for the static backend
+  const Options& options() const;         ///< those of the last build()
+  void setThreads(unsigned threads);      ///< replaces Options::threads; 0: all of the machine
 
 private:
   Options options_;

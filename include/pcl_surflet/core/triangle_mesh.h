@@ -13,11 +13,11 @@ namespace pcl_surflet {
 
 /** \brief A triangle mesh with counter-clockwise (outward) faces; units are the user's. */
 struct PCL_SURFLET_API TriangleMesh {
-  using Point = std::array<float, 3>;
-  using Triangle = std::array<std::uint32_t, 3>;
+  using Point = std::array<float, 3>;            ///< x, y, z
+  using Triangle = std::array<std::uint32_t, 3>; ///< indices of its corners
 
-  std::vector<Point> vertices;
-  std::vector<Triangle> triangles;
+  std::vector<Point> vertices;     ///< corners, shared by their triangles
+  std::vector<Triangle> triangles; ///< counter-clockwise, seen from outside
 
   /** \brief Empty if the mesh can be sampled, else what is wrong and how to mend it: no triangles,
    * an index beyond the vertices, a coordinate that is not finite, or no area. */

@@ -22,8 +22,9 @@ using SuperKey = std::array<double, 3>;
  * threads, and results come in the order of the super-keys whatever their number. */
 class PCL_SURFLET_API UnrestrictedSpace : public RegionIndex {
 public:
+  /** \brief What its cubes are. */
   struct Options {
-    TreeKind tree = TreeKind::Octree;
+    TreeKind tree = TreeKind::Octree; ///< of every cube
     double cell = 0.01;   ///< edge of an atomic cell, in the unit of the coordinates, > 0
     int depth = 8;        ///< d_max in [0, 63]: a cube has edge e0 = cell * 2^depth
     unsigned threads = 1; ///< for searches across cubes; 0 = all of the machine
@@ -53,14 +54,15 @@ public:
   /** \brief Removes the point with number \p id; false if there is none. */
   bool remove(PointIndex id);
 
-  bool contains(PointIndex id) const;
+  bool contains(PointIndex id) const; ///< is the number in use?
 
-  const Options& options() const;
-  void setThreads(unsigned threads);
-  std::size_t cubeCount() const;
-  std::size_t cellCount() const;
-  std::vector<SuperKey> superKeys() const;
-  SuperKey superKey(const Position& p) const;
+  const Options& options() const;    ///< as constructed, with the threads of setThreads()
+  void setThreads(unsigned threads); ///< replaces Options::threads; 0: all of the machine
+  std::size_t cubeCount() const;     ///< cubes that hold a point
+  std::size_t cellCount() const;     ///< occupied atomic cells of all cubes
+
+  std::vector<SuperKey> superKeys() const;    ///< of all cubes, ascending
+  SuperKey superKey(const Position& p) const; ///< of the cube that \p p lies in, occupied or not
 
   /** \brief Calls \p visit for every occupied cell, cube by cube in the order of the keys. */
   void forEachCell(const std::function<void(const Cell&)>& visit) const;

@@ -16,13 +16,13 @@ namespace pcl_surflet {
 struct ModelMatch {
   std::size_t model = 0;  ///< index in the database
   std::size_t member = 0; ///< the model's best member
-  std::string label;
-  std::string condition; ///< what the best member was trained under ("noise 4 %"): of the winner,
-                         ///< an estimate of the query's noise and visibility
-  double score = 0;      ///< value of the criterion; which end is better: smallerIsBetter()
-  double surprise = 0;   ///< nats per feature by which the log-likelihood falls short of what the
-                         ///< model expects of its own features; near 0 for a perfect match
-  double posterior = 0;  ///< probability of the model among those of the database, in [0, 1]
+  std::string label;      ///< of the model
+  std::string condition;  ///< what the best member was trained under ("noise 4 %"): of the winner,
+                          ///< an estimate of the query's noise and visibility
+  double score = 0;       ///< value of the criterion; which end is better: smallerIsBetter()
+  double surprise = 0;    ///< nats per feature by which the log-likelihood falls short of what the
+                          ///< model expects of its own features; near 0 for a perfect match
+  double posterior = 0;   ///< probability of the model among those of the database, in [0, 1]
   /** \brief Kullback-Leibler divergence of the query from the best member, sum Q ln (Q / H), in
    * nats per feature, >= 0: what the features tell against the model. Fewer features make it
    * larger. */
@@ -81,6 +81,7 @@ public:
   {
     criterion_ = criterion;
   }
+  /** \brief The criterion in use. */
   Criterion
   getCriterion() const
   {
@@ -93,9 +94,11 @@ public:
   {
     features_ = features;
   }
+  /** \brief Pairs drawn per query, the default resolved. */
   std::uint64_t getNumberOfFeatures() const;
   /** \brief 2000, or twice the number of bins if that is more. */
   static std::uint64_t defaultFeatures(const Resolution& resolution);
+  /** \brief Seed of the drawn pairs, default 1. */
   void
   setSeed(std::uint64_t seed)
   {

@@ -30,17 +30,17 @@ struct ModelMember {
  * Lengths are in the unit of the training data. A model may hold several histograms, trained under
  * different conditions; its response to a query is that of its best member. */
 struct PCL_SURFLET_API HistogramModel {
-  static constexpr std::size_t kMaxLabelBytes = 63;
+  static constexpr std::size_t kMaxLabelBytes = 63; ///< so that a database file can hold it
 
   std::string label; ///< 1 to 63 bytes without control characters; unique in a database
-  ModelRole role = ModelRole::Object;
-  Resolution resolution;
-  double delta_max = 0;    ///< largest distance between two surflets, exact
-  double r_mean = 0;       ///< mean distance of a surflet to the centroid
-  double r_max = 0;        ///< largest distance of a surflet to the centroid
-  double r_min = 0;        ///< smallest distance of a surflet to the centroid
-  double surface_area = 0; ///< 0 if unknown (trained from points)
-  std::vector<ModelMember> members;
+  ModelRole role = ModelRole::Object; ///< to be found, or to be ignored
+  Resolution resolution;              ///< of every member
+  double delta_max = 0;               ///< largest distance between two surflets, exact
+  double r_mean = 0;                  ///< mean distance of a surflet to the centroid
+  double r_max = 0;                   ///< largest distance of a surflet to the centroid
+  double r_min = 0;                   ///< smallest distance of a surflet to the centroid
+  double surface_area = 0;            ///< 0 if unknown (trained from points)
+  std::vector<ModelMember> members;   ///< at least one; the first is the complete object's
 
   /** \brief Empty if the model is usable, else what is wrong: checks label, resolution, lengths
    * (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of every member size,

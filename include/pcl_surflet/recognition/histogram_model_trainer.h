@@ -39,6 +39,7 @@ public:
   /** \brief Bins per dimension, default 5,5,5,5.
    * \throws std::invalid_argument for an unusable resolution */
   void setResolution(const Resolution& resolution);
+  /** \brief Bins per dimension. */
   const Resolution&
   getResolution() const
   {
@@ -54,6 +55,7 @@ public:
   {
     seed_ = seed;
   }
+  /** \brief The random seed. */
   std::uint64_t
   getSeed() const
   {
@@ -65,6 +67,7 @@ public:
   {
     threads_ = threads;
   }
+  /** \brief Threads, 0: all. */
   unsigned
   getNumberOfThreads() const
   {
@@ -85,6 +88,7 @@ public:
   /** \brief Surflets per sampling of a mesh, default 4500 (the dissertation: 3,500-5,500), and
    * number of samplings, default 5. \throws std::invalid_argument if below 2 or 1 */
   void setMeshSampling(std::size_t surflets, unsigned samplings);
+  /** \brief Surflets per sampling of a mesh. */
   std::size_t
   getMeshSurflets() const
   {

@@ -22,7 +22,7 @@ public:
  * A cut or a view leaves another part of the object each time. One mean histogram of all parts
  * resembles none of them; several members, each the mean of similar parts, do. */
 struct PCL_SURFLET_API BankCondition {
-  static constexpr unsigned kMostMembers = 64;
+  static constexpr unsigned kMostMembers = 64; ///< of one condition
 
   double noise = 0;     ///< largest displacement as a share of the diameter, in [0, 0.5]
   double visible = 1;   ///< share of the surface left by a random plane, in (0, 1]
@@ -52,7 +52,7 @@ struct PCL_SURFLET_API ModelBank {
   /** \brief Normals of noisy surfaces and of views are estimated from the positions within this
    * radius, in spacings (square root of the area per point). Queries should be treated alike. */
   double normal_radius = 3;
-  std::vector<BankCondition> conditions;
+  std::vector<BankCondition> conditions; ///< of the members after the first
 
   /** \brief The default: noise of 1, 2 and 4 %, three visible shares, both together, and views; 29
    * members in all with the clean one, 72 kB a model at resolution 5,5,5,5. */

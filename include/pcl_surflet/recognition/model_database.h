@@ -53,11 +53,13 @@ public:
   /** \brief Removes the model \p label. \return false if there is none */
   bool remove(const std::string& label);
 
+  /** \brief Number of models, background models included. */
   std::size_t
   size() const
   {
     return models_.size();
   }
+  /** \brief Whether there is no model. */
   bool
   empty() const
   {
@@ -76,8 +78,10 @@ public:
   /** \brief Largest delta_max, 0 while empty. */
   double largestDelta() const;
 
-  /** \throws DatabaseError unless tau is in (0, 1] and floor in [0, 1) */
+  /** \brief How empty bins are penalised from now on. \throws DatabaseError unless tau is in (0, 1]
+   * and floor in [0, 1) */
   void setPenalty(const PenaltyParameters& penalty);
+  /** \brief The penalty in use. */
   const PenaltyParameters&
   getPenalty() const
   {

@@ -21,8 +21,8 @@ enum class OnlineState {
 
 /** \brief An object of a growing scene. */
 struct OnlineDetection : Detection {
-  std::uint64_t id = 0; ///< from 1; never given twice
-  OnlineState state = OnlineState::New;
+  std::uint64_t id = 0;                 ///< from 1; never given twice
+  OnlineState state = OnlineState::New; ///< since the scan before
   /** \brief Its cells, relative to those expected of the model's whole surface. NaN if the model's
    * area is unknown. */
   double coverage = 0;
@@ -40,9 +40,9 @@ struct Attractor {
 
 /** \brief A region that is explained; another look at it tells little. */
 struct Distractor {
-  std::array<double, 3> centre{};
-  double radius = 0;
-  std::uint64_t id = 0; ///< of the detection
+  std::array<double, 3> centre{}; ///< of the detection's cells
+  double radius = 0;              ///< largest distance of these to the centre
+  std::uint64_t id = 0;           ///< of the detection
 };
 
 /** \brief What one scan did. */
@@ -55,6 +55,8 @@ struct OnlineScan {
   std::size_t interpreted_cells = 0; ///< interpreted again
 };
 
+/** \brief Constants of OnlineInterpretation; leaf must be set. Lengths are in the unit of the
+ * scene. */
 struct OnlineParameters {
   /** \brief Its threads, seed and background apply; leaf is set to that of the cells. */
   ExplanationParameters explanation;
@@ -76,11 +78,12 @@ struct OnlineParameters {
  * on the number of threads. Limits: doc/online.md. */
 class PCL_SURFLET_API OnlineInterpretation {
 public:
-  /** \throws std::invalid_argument if a parameter is out of range \throws DatabaseError if the
-   * database has no object */
+  /** \brief Nothing seen yet. \throws std::invalid_argument if a parameter is out of range \throws
+   * DatabaseError if the database has no object */
   OnlineInterpretation(ModelDatabase database, OnlineParameters parameters);
   ~OnlineInterpretation();
-  OnlineInterpretation(OnlineInterpretation&&) noexcept;
+  OnlineInterpretation(OnlineInterpretation&&) noexcept; ///< leaves the other to be destroyed
+  /** \brief Leaves the other only to be destroyed. */
   OnlineInterpretation& operator=(OnlineInterpretation&&) noexcept;
 
   /** \brief Takes in a scan and interprets what it changed. \param surflets in the frame of the
@@ -91,8 +94,8 @@ public:
   const SurfletSet& cells() const;
   /** \brief By ascending id; those that vanished come last. */
   const std::vector<OnlineDetection>& detections() const;
-  const std::vector<Attractor>& attractors() const;
-  const std::vector<Distractor>& distractors() const;
+  const std::vector<Attractor>& attractors() const;   ///< of the scene so far
+  const std::vector<Distractor>& distractors() const; ///< of the scene so far
 
 private:
   struct State;

@@ -16,14 +16,14 @@ namespace pcl_surflet {
 
 /** \brief Rotation, then translation: x -> R x + t. */
 struct PCL_SURFLET_API RigidMotion {
-  using Vector = std::array<double, 3>;
+  using Vector = std::array<double, 3>; ///< x, y, z
 
   std::array<Vector, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}; ///< its rows
-  Vector translation{0, 0, 0};
+  Vector translation{0, 0, 0};                                       ///< t
 
-  Vector turned(const Vector& direction) const;
-  Vector moved(const Vector& point) const;
-  RigidMotion inverse() const;
+  Vector turned(const Vector& direction) const; ///< R \p direction
+  Vector moved(const Vector& point) const;      ///< R \p point + t
+  RigidMotion inverse() const;                  ///< of a rotation R, whose rows are orthonormal
   /** \brief This motion after \p first. */
   RigidMotion after(const RigidMotion& first) const;
   /** \brief Unit quaternion (x, y, z, w) with w >= 0. */
@@ -46,10 +46,10 @@ enum class SymmetryKind {
 
 /** \brief How a pose is ambiguous: turned so, the object looks the same. */
 struct Symmetry {
-  SymmetryKind kind = SymmetryKind::None;
-  std::array<double, 3> axis{0, 0, 1}; ///< unit vector; of the highest order, if there are several
-  std::array<double, 3> point{0, 0, 0};
-  unsigned order = 1; ///< of Discrete, 2 to 12; 1 for None, 0 for the others
+  SymmetryKind kind = SymmetryKind::None; ///< which turns
+  std::array<double, 3> axis{0, 0, 1};  ///< unit vector; of the highest order, if there are several
+  std::array<double, 3> point{0, 0, 0}; ///< on the axis; of Spherical the centre
+  unsigned order = 1;                   ///< of Discrete, 2 to 12; 1 for None, 0 for the others
   /** \brief Every motion that is known to map the surface onto itself, without the identity:
    * of a continuous axis its turns in steps of 10 degrees are not listed, half turns about axes
    * across it are. */
@@ -74,13 +74,17 @@ struct ModelData;
  * \ref train() takes 0.05 to 0.3 s and a model 2 to 6 MB. */
 class PCL_SURFLET_API PoseModel {
 public:
-  /** \param surflets of the complete surface, evenly dense, normals outwards; 20,000 are a good
+  /** \brief Makes a model of a surface.
+   * \param label the name by which detections find it
+   * \param surflets of the complete surface, evenly dense, normals outwards; 20,000 are a good
    * number. In the unit of the scenes to come, at any place.
+   * \param seed of what is drawn at random
    * \throws PoseModelError for fewer than 50 cells, less extent than 1e-12, or surflets that are
    * not finite. The same input and seed give the same model for any number of threads. */
   static PoseModel train(const std::string& label, const SurfletSet& surflets,
                          std::uint64_t seed = 1);
 
+  /** \brief The name given to train(). */
   const std::string& label() const;
   /** \brief Largest distance between two surflets. */
   double diameter() const;
@@ -116,9 +120,10 @@ struct PoseParameters {
   double fine_reach = 0.03;      ///< the same at the end, in (0, coarse_reach]
   double unseen_weight = 0.3;    ///< of surface not found, where viewpoints are known, in [0, 1]
   double min_inliers = 0.3;      ///< least share of the cluster that lies on the model, in [0, 1]
-  std::uint64_t seed = 1;
+  std::uint64_t seed = 1;        ///< of the cells drawn
 };
 
+/** \brief How an estimation ended. */
 enum class PoseStatus {
   Found,
   TooFewCells,  ///< fewer than three cells, or nothing finite
@@ -129,18 +134,20 @@ enum class PoseStatus {
 
 /** \brief Where an object is. */
 struct PoseEstimate {
-  PoseStatus status = PoseStatus::TooFewCells;
-  std::string reason;      ///< status in words; empty if a pose was found
-  RigidMotion motion;      ///< from the model's coordinates to the scene's
+  PoseStatus status = PoseStatus::TooFewCells; ///< what follows is only meant for Found
+  std::string reason;                          ///< status in words; empty if a pose was found
+  RigidMotion motion;                          ///< from the model's coordinates to the scene's
   double score = 0;        ///< by which poses were compared: inlier share less what should be seen
   double inlier_share = 0; ///< of the cluster's cells, weighted by how well they fit, in [0, 1]
   /** \brief Score less that of the best pose found that looks different; small where the cluster
    * leaves the pose open, say where a cup hides its handle. */
   double margin = 0;
   double residual = 0; ///< root mean square distance of inliers from the surface, scene's unit
-  /** \brief Standard deviation of the object's centre, scene's unit, and of its rotation, radians,
-   * as the residuals of independent cells tell; without the turn about a continuous axis. */
-  double position_deviation = 0, rotation_deviation = 0;
+  /** \brief Standard deviation of the object's centre, scene's unit, as the residuals of
+   * independent cells tell. */
+  double position_deviation = 0;
+  /** \brief The same of its rotation, radians, without the turn about a continuous axis. */
+  double rotation_deviation = 0;
   Symmetry symmetry;     ///< in the scene's coordinates
   std::size_t cells = 0; ///< of the cluster, looked at
 };
@@ -155,6 +162,8 @@ struct PoseEstimate {
  *
  * \param cluster points or cells of one object, normals outwards; up to a quarter may be foreign.
  * Surflets that are not finite are left out.
+ * \param model of the object that the cluster is taken for
+ * \param parameters see there
  * \param beside points around the cluster that belong to no other object: what a segmentation lost.
  * They propose no pose, but confirm one where they lie on the model: a cup's handle often is
  * missing in its cluster. Far ones are ignored.

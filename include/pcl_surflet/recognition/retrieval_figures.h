@@ -13,9 +13,9 @@ namespace pcl_surflet {
 
 /** \brief The usual figures of shape retrieval, means over the queries, in [0, 1]. */
 struct RetrievalFigures {
-  static constexpr std::size_t kRecallLevels = 10;
+  static constexpr std::size_t kRecallLevels = 10; ///< of \ref precision
 
-  std::size_t queries = 0;
+  std::size_t queries = 0;      ///< that have others of their class
   double nearest_neighbour = 0; ///< share of queries whose first hit is of their class
   double first_tier = 0;        ///< share of the class among the first |class| - 1 hits
   double second_tier = 0;       ///< share of the class among the first 2 (|class| - 1) hits

@@ -46,8 +46,11 @@ PCL_SURFLET_API std::uint64_t seedOfRun(std::uint64_t seed, std::size_t run);
 
 /** \brief Interprets again and again and merges the results.
  *
+ * \param cells the reduced scene
  * \param interpret makes one interpretation of \p cells with a seed. Cancelled ones end the whole,
  * which then has no detections.
+ * \param seed of the first run; those of the others follow from it (seedOfRun())
+ * \param parameters how many runs, and how they vote
  * \param may_go_on asked after every run but the last, told how many there were: a time budget. The
  * result depends on it only by the number of runs. None: parameters alone decide.
  * \param runs_made receives how many there were, unless null

@@ -25,7 +25,7 @@ enum class BackgroundTreatment {
  * middle; so it climbs to where most selected surflets are between r_min and r_max of it. Seeds of
  * models whose r_min is 0 stay. */
 struct FloatingSeeds {
-  bool on = false;
+  bool on = false;     ///< whether seeds move
   unsigned steps = 25; ///< step k is r_min / k long, in [1, 10000]
   /** \brief s of Eq. 6.3, 6.4, times r_max: how sharply the two radii bound, in (0, 1e6]. */
   double steepness = 60;
@@ -36,14 +36,14 @@ struct FloatingSeeds {
  * r_max of each detection's centroid, those that suit its model are refined, and what is left joins
  * the detection. It regains the border of objects; names stay as they are. */
 struct Repetition {
-  bool on = false;
+  bool on = false; ///< whether detections regain what is left
   /** \brief Pairs drawn for each surflet within r_max, > 0 and at most 1e6. */
   double pairs_per_surflet = 4;
 };
 
 /** \brief Constants of the seven steps. Those marked (*) the dissertation leaves open. */
 struct DissertationParameters {
-  BackgroundTreatment background = BackgroundTreatment::Ignore;
+  BackgroundTreatment background = BackgroundTreatment::Ignore; ///< step 1
 
   /** \brief Step 1: pairs s with a distance of at most the largest delta_max of the objects, n. The
    * dissertation draws 232,000, and 100,000 where the background is excluded. */
@@ -70,8 +70,8 @@ struct DissertationParameters {
   FloatingSeeds floating; ///< step 2
   Repetition repetition;  ///< after step 7
 
-  std::uint64_t seed = 1;
-  unsigned threads = 0; ///< 0: all; the result does not depend on it
+  std::uint64_t seed = 1; ///< of all that is drawn; one seed, one result
+  unsigned threads = 0;   ///< 0: all; the result does not depend on it
 
   /** \brief Told now and then which share is done, in [0, 1], never falling; returns false to
    * cancel. Called in the thread that interprets; what it throws ends the interpretation. */
@@ -81,7 +81,7 @@ struct DissertationParameters {
 /** \brief What an interpretation did for one model. Each count is what was left or lost at that
  * point; what the other method counts is 0. */
 struct ModelDiagnostics {
-  std::string label;
+  std::string label; ///< of the model
   /** \name interpretByExplanation(), which tries again on what the first choice left over
    * explanations = died_fit + lost + detections */
   ///@{
@@ -111,23 +111,24 @@ struct ModelDiagnostics {
   ///@}
   /** \brief Step 7: lost a competition. Explanations: others explain their cells better. */
   std::size_t lost = 0;
-  std::size_t detections = 0;
+  std::size_t detections = 0; ///< of this model in the result
 };
 
+/** \brief What an interpretation did: counts of what was left or lost at each step. */
 struct InterpretationDiagnostics {
-  bool cancelled = false;     ///< progress said so: there are no detections, the rest is partial
-  std::uint64_t drawn = 0;    ///< step 1: pairs drawn
-  std::uint64_t too_long = 0; ///< step 1: of these, longer than any model
-  std::uint64_t featureless = 0;
-  std::uint64_t background = 0;         ///< step 1: pairs that are most likely background
+  bool cancelled = false;        ///< progress said so: there are no detections, the rest is partial
+  std::uint64_t drawn = 0;       ///< step 1: pairs drawn
+  std::uint64_t too_long = 0;    ///< step 1: of these, longer than any model
+  std::uint64_t featureless = 0; ///< step 1: of those drawn, pairs without feature
+  std::uint64_t background = 0;  ///< step 1: pairs that are most likely background
   std::size_t background_cells = 0;     ///< by explanation: cells voted background
   std::vector<ModelDiagnostics> models; ///< in the order of the database
 };
 
 /** \brief An object found in a scene. */
 struct Detection {
-  std::size_t model = 0; ///< index in the database
-  std::string label;
+  std::size_t model = 0;            ///< index in the database
+  std::string label;                ///< of the model
   std::vector<std::uint32_t> cells; ///< indices of its surflets in the scene, ascending
   std::array<double, 3> centroid{}; ///< of these surflets
   /** \brief Nats per feature by which the model's mean log-likelihood exceeds that of the best
@@ -144,9 +145,10 @@ struct Detection {
   double votes = 1; ///< share of the runs that found it, in (0, 1]; see AccumulationParameters
 };
 
+/** \brief What was found in a scene, and how. */
 struct SceneInterpretation {
-  std::vector<Detection> detections; ///< in the order of the models
-  InterpretationDiagnostics diagnostics;
+  std::vector<Detection> detections;     ///< in the order of the models
+  InterpretationDiagnostics diagnostics; ///< step by step
 };
 
 /** \brief Interprets a scene by the seven steps of the dissertation as they are written
@@ -155,6 +157,7 @@ struct SceneInterpretation {
  * \param cells the scene, reduced to mean surflets (reduceToCells())
  * \param database models and, for BackgroundTreatment::Model, background models. Of a
  * model with several members the first takes part, which is that of the complete surface.
+ * \param parameters constants of the steps
  *
  * **Readings.** A pair longer than a model's delta_max has the histogram value 0 there (it cannot
  * lie on the object) and is crosstalk in step 3. Regrouping joins every surflet of a set with
@@ -198,7 +201,7 @@ struct ExplanationParameters {
   /** \brief BackgroundTreatment::Ignore: the same for a background learned from the scene's long
    * pairs; the radius is a share of the largest object's delta_max. */
   double uniform_vote_share = 0.6;
-  double uniform_vote_radius = 0.8;
+  double uniform_vote_radius = 0.8; ///< see \ref uniform_vote_share, > 0
 };
 
 /** \brief Interprets a scene by what explains it best.

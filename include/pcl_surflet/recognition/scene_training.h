@@ -12,13 +12,15 @@ namespace pcl_surflet {
  * cell suffer. So the object is reduced too (reduceToTwoSidedCells()), in four random orientations.
  * And as interpretation finds an object by the cells that support its model
  * (interpretByExplanation()), the histogram is that of the cells that support each other; a wine
- * glass loses its stem. HistogramModel:: surface_area becomes the area of these cells, by which the
+ * glass loses its stem. HistogramModel::surface_area becomes the area of these cells, by which the
  * share found of an object is judged.
  *
+ * \param label 1 to 63 bytes, unique in a database
  * \param trainer resolution and role of the model; seven intervals in every dimension are best
  * \param surflets of the complete surface, several to a cell
  * \param leaf edge of the cells, as in the scenes to come; positive and finite
- * \param seed of the orientations \param threads 0: all; does not change the result
+ * \param seed of the orientations
+ * \param threads 0: all; does not change the result
  * \throws TrainingError if fewer than 30 cells support the model: take smaller cells
  * \throws std::invalid_argument for an unusable leaf */
 PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& trainer,
@@ -33,8 +35,12 @@ PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& train
  * not fit. What is seen is reduced and cleared of cells that do not support the complete model,
  * like the object itself.
  *
+ * \param model receives the member; its first one is that of the complete object
  * \param condition names the view, e.g. "seen from 30 degrees"; at most 63 bytes
- * \param seen surflets of what is seen, several to a cell; other parameters as in trainForScenes()
+ * \param seen surflets of what is seen, several to a cell
+ * \param leaf edge of the cells, the one that the model was trained with
+ * \param seed of the orientations
+ * \param threads 0: all; does not change the result
  * \throws TrainingError if fewer than 30 cells support the model; then nothing is added
  * \throws std::invalid_argument for an unusable leaf, or a model without members */
 PCL_SURFLET_API void addView(HistogramModel& model, const std::string& condition,
