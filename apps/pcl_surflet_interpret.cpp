@@ -64,5 +64,6 @@ interpret(int argc, char** argv, Ranks& ranks)
 int
 main(int argc, char** argv)
 {
-  return runOnRanks(kProgram, [&](Ranks& ranks) { return interpret(argc, argv, ranks); });
+  return runOnRanks(kProgram, argc, argv,
+                    [&](Ranks& ranks) { return interpret(argc, argv, ranks); });
 }

@@ -157,5 +157,5 @@ train(int argc, char** argv, Ranks& ranks)
 int
 main(int argc, char** argv)
 {
-  return runOnRanks(kProgram, [&](Ranks& ranks) { return train(argc, argv, ranks); });
+  return runOnRanks(kProgram, argc, argv, [&](Ranks& ranks) { return train(argc, argv, ranks); });
 }

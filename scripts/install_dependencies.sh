@@ -5,6 +5,7 @@ set -euo pipefail
 packages=(
   build-essential ca-certificates cmake ninja-build ccache git
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
+  libboost-mpi-dev openmpi-bin  # several processes; without them one process does it all
   libgtest-dev libbenchmark-dev libnanoflann-dev
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display

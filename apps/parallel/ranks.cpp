@@ -125,12 +125,29 @@ Ranks::endAll(const std::string& program, const std::string& error)
   world_->abort(kBadData);
 }
 
+void
+Ranks::requireSameArguments(int argc, char** argv)
+{
+  Bytes own;
+  for (int i = 1; i < argc; ++i)
+    own += argv[i] + Bytes(1, '\0');
+  const Bytes first = fromFirst(own);
+  together([&] {
+    if (own != first)
+      throw UsageError(
+          "started with other arguments than the first rank; give all the same, or set "
+          "PCL_SURFLET_MPI=off to let every process work for itself");
+  });
+}
+
 int
-runOnRanks(const std::string& program, const std::function<int(Ranks& ranks)>& body)
+runOnRanks(const std::string& program, int argc, char** argv,
+           const std::function<int(Ranks& ranks)>& body)
 {
   return runMain(program, [&] {
     Ranks ranks;
     try {
+      ranks.requireSameArguments(argc, argv);
       const int code = body(ranks);
       return ranks.isFirst() ? code : kOk;
     }

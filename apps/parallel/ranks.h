@@ -60,7 +60,11 @@ public:
   PairHistogram sum(PairHistogram own);
 
 private:
-  friend int runOnRanks(const std::string& program, const std::function<int(Ranks& ranks)>& body);
+  friend int runOnRanks(const std::string& program, int argc, char** argv,
+                        const std::function<int(Ranks& ranks)>& body);
+
+  /** \brief Other arguments mean other work. \throws UsageError, ReportedElsewhere */
+  void requireSameArguments(int argc, char** argv);
 
   /** \brief Says what went wrong and ends all ranks, unless all of them end already. */
   void endAll(const std::string& program, const std::string& error);

@@ -49,7 +49,9 @@ modelOf(const HistogramModelTrainer& trainer, const std::string& label, const Su
     if (!file.mesh)
       throw DataError("'" + label + "': option -views needs a mesh, not points");
     const SceneItem item = sceneItem(label, *file.mesh);
-    return trainForSensors(trainer, item, sensingFor(item, o.leaf), o.leaf, o.seed, threads);
+    SceneSensing sensing = sensingFor(item, o.leaf);
+    sensing.threads = threads;
+    return trainForSensors(trainer, item, sensing, o.leaf, o.seed, threads);
   }
   if (o.leaf > 0) {
     const std::size_t wanted = file.mesh ? surfletsFor(*file.mesh, o.leaf) : 0;

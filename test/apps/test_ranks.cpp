@@ -252,12 +252,25 @@ TEST_F(RanksTest, ErrorsAreSaidOnce)
 TEST_F(RanksTest, AnErrorOfAnotherRankIsNamed)
 {
   makeDatabase();
+  // To the other rank the relative names mean nothing.
   const AppRun r =
-      Running(launched(1, "interpret", {"-database", path("db.pcd"), path("ball.pcd")}) +
-              Words{":", "-n", "1", appPath("interpret"), "-database", path("none.pcd"),
-                    path("ball.pcd")})
+      Running({PCL_SURFLET_MPIEXEC, "-n", "2", "/bin/sh", "-c",
+               "[ $OMPI_COMM_WORLD_RANK = 0 ] && cd \"$1\"; exec \"$0\" -database db.pcd "
+               "ball.pcd",
+               appPath("interpret"), directory_.string()})
           .wait();
-  EXPECT_TRUE(ended(r, 2, {"rank 1", path("none.pcd")}));
+  EXPECT_TRUE(ended(r, 2, {"rank 1", "db.pcd"}));
+}
+
+TEST_F(RanksTest, DifferentArgumentsAreRefused)
+{
+  makeDatabase();
+  const Words database = {"-database", path("db.pcd")};
+  const AppRun r =
+      Running(launched(1, "interpret", database + Words{path("ball.pcd")}) +
+              Words{":", "-n", "1", appPath("interpret")} + database + Words{path("die.ply")})
+          .wait();
+  EXPECT_TRUE(ended(r, 2, {"rank 1", "other arguments", "PCL_SURFLET_MPI=off"}));
 }
 
 TEST_F(RanksTest, ADirectoryThatIsGoneIsSaidOnceAndTheOldDatabaseStays)
