@@ -7,7 +7,7 @@
 #include "interpretation/text.h"
 #include "parallel/share_out.h"
 
-#include <cstdio>
+#include <iostream>
 #include <optional>
 
 using namespace pcl_surflet;
@@ -23,7 +23,7 @@ interpretAll(SceneWorker& worker, const InterpretOptions& o, Ranks& ranks)
 {
   int code = kOk;
   if (o.csv && ranks.isFirst())
-    std::fputs(csvHeader(!o.pose.models.empty()).c_str(), stdout);
+    std::cout << csvHeader(!o.pose.models.empty());
   shareOut<InterpretedScene>(
       ranks, o.files.size(), [&](std::size_t i) { return worker.interpret(o.files[i]); },
       [&](std::size_t i, const InterpretedScene& scene) {

@@ -2,8 +2,8 @@
 
 #include "picture.h"
 
-#include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <system_error>
 
 #include <unistd.h>
@@ -62,8 +62,8 @@ deliver(const InterpretedScene& scene, const InterpretOptions& o)
     note(text);
   if (!scene.error.empty())
     throw DataError(scene.error);
-  std::fputs(scene.found.c_str(), stdout);
-  std::fputs(scene.steps.c_str(), stderr);
+  std::cout << scene.found << std::flush; // whole scenes, should the run be ended
+  std::cerr << scene.steps;
   if (!o.objects_dir.empty())
     writeObjects(scene.objects, o.objects_dir);
   if (!o.out.empty() || !o.picture.empty())

@@ -76,10 +76,11 @@ private:
 /** \brief Thrown where the first rank throws the error. */
 struct ReportedElsewhere {};
 
-/** \brief runMain() for programs that several ranks run: \p body is called on each of them. The
- * exit code is that of the first rank, 0 on others. An error that \p body does not share by
- * Ranks::together() ends all ranks at once. */
-int runOnRanks(const std::string& program, const std::function<int(Ranks& ranks)>& body);
+/** \brief runMain() for programs that several ranks run, all with the same arguments: \p body is
+ * called on each of them. The exit code is that of the first rank, 0 on others. An error that \p
+ * body does not share by Ranks::together() ends all ranks at once. */
+int runOnRanks(const std::string& program, int argc, char** argv,
+               const std::function<int(Ranks& ranks)>& body);
 
 } // namespace apps
 } // namespace pcl_surflet
