@@ -1,10 +1,9 @@
 // Says which models of a database files look like.
 
-#include "app_common.h"
+#include "queries.h"
 
 #include "pcl_surflet/core/parallel.h"
 #include "pcl_surflet/recognition/histogram_classifier.h"
-#include "pcl_surflet/surface_file.h"
 
 #include <algorithm>
 #include <iostream>
@@ -16,16 +15,12 @@ using namespace pcl_surflet::apps;
 namespace {
 
 constexpr const char* kProgram = "pcl_surflet_classify";
+constexpr const char* kColumns = "file,answer,rank,label,score,posterior,surprise,condition,misfit";
 
-/** Surflets drawn from a mesh to make a query of it. */
-constexpr std::size_t kMeshSurflets = 4500;
-
-struct Options {
-  std::string database;
+struct Options : QueryOptions {
   Criterion criterion = Criterion::Likelihood;
-  std::uint64_t features = 0, top = 3, seed = 1, threads = 0, neighbours = 0;
   double unknown = 0;
-  bool has_unknown = false, calibrated = false, scale_normalized = false, csv = false;
+  bool has_unknown = false, calibrated = false, scale_normalized = false;
   std::vector<std::string> files;
 };
 
@@ -48,7 +43,7 @@ void
 addOptions(CommandLine& line, Options& o)
 {
   constexpr double kLargest = std::numeric_limits<double>::max();
-  line.text("-database", "DB.pcd", "the database (required)", o.database);
+  addQueryOptions(line, kColumns, o);
   line.option("-criterion", "NAME", criterionNames() + "; default likelihood",
               [&o](const std::string& name) {
                 const auto criterion = criterionByName(name);
@@ -57,9 +52,6 @@ addOptions(CommandLine& line, Options& o)
                                    criterionNames());
                 o.criterion = *criterion;
               });
-  line.count("-features", "N", "pairs drawn per query, default 2000 or twice the number of bins",
-             o.features, 1, 1000000000);
-  line.count("-top", "N", "models listed per file, default 3", o.top, 1, 1000000);
   line.option("-unknown", "auto|T",
               "auto: reject what fits worse than 97.5 % of the training samples (needs models of a "
               "bank); T: worst accepted value, surprise in nats (likelihood) or score; default: "
@@ -71,13 +63,6 @@ addOptions(CommandLine& line, Options& o)
                   o.unknown = parseReal("-unknown", value, -kLargest, kLargest);
               });
   line.flag("-scale_normalized", "compare shapes regardless of size", o.scale_normalized);
-  addSeed(line, o.seed);
-  addThreads(line, o.threads);
-  addNeighbours(line, o.neighbours);
-  line.flag("-csv",
-            "print a table with the columns "
-            "file,answer,rank,label,score,posterior,surprise,condition,misfit",
-            o.csv);
 }
 
 /** \return false if help was asked for */
@@ -125,14 +110,10 @@ answerTo(const Options& o, const HistogramClassifier& classifier, const std::str
 {
   Answer answer;
   try {
-    SurfaceFileOptions loading;
-    loading.estimate_normals = static_cast<int>(o.neighbours);
-    loading.threads = 1; // files are spread over the threads
-    const SurfaceFile file = loadSurface(path, loading);
-    answer.classification = classifier.classify(surfletsOf(file, kMeshSurflets, o.seed));
+    const SurfletSet query = queryFrom(path, o, 1); // files are spread over the threads
+    answer.classification = classifier.classify(query);
     if (answer.classification.ranking.empty())
-      throw DataError("no pair of its points has a feature; give a cloud of at least two different "
-                      "points");
+      refuseQueryWithoutPairs();
   }
   catch (const std::exception& error) {
     answer.error = error.what();
@@ -192,7 +173,7 @@ classify(int argc, char** argv)
   const HistogramClassifier classifier = classifierFor(o, database);
   const unsigned threads = resolveThreads(static_cast<unsigned>(o.threads));
   if (o.csv)
-    std::cout << "file,answer,rank,label,score,posterior,surprise,condition,misfit\n";
+    std::cout << kColumns << "\n";
   Progress progress(o.files.size());
   std::size_t failed = 0;
   // A few files at a time: answers come in order and soon, and memory stays bounded.

@@ -5,6 +5,7 @@
 #include "evaluation/scoring.h"
 #include "scene_items.h"
 #include "sensor_options.h"
+#include "surfaces.h"
 #include "thread_time.h"
 
 #include "pcl_surflet/core/counter_random.h"
@@ -98,21 +99,6 @@ trueClusters(const Scene& scene, const Options& o)
     }
   }
   return all;
-}
-
-using Cloud = pcl::PointCloud<pcl::PointNormal>;
-
-Cloud::Ptr
-cloudOf(const SurfletSet& set)
-{
-  Cloud::Ptr cloud(new Cloud);
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    pcl::PointNormal p;
-    p.getVector3fMap() << set.x[i], set.y[i], set.z[i];
-    p.getNormalVector3fMap() << set.nx[i], set.ny[i], set.nz[i];
-    cloud->push_back(p);
-  }
-  return cloud;
 }
 
 /** \brief Finds clusters as a user would: by the interpreter, the empty scene excluded. */

@@ -1,13 +1,13 @@
 // Writes the surflet-pair histogram of a cloud as a PCD that pcl_viewer plots.
 
 #include "app_common.h"
+#include "queries.h"
+#include "surfaces.h"
 
 #include "pcl_adapters/pcd_content.h"
-#include "pcl_surflet/surface_file.h"
 #include "pcl_surflet/surflet_pair_histogram.h"
 
 #include <pcl/conversions.h>
-#include <pcl/point_types.h>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -16,32 +16,16 @@ namespace {
 
 constexpr const char* kProgram = "pcl_surflet_feature";
 
-/** Surflets drawn from a mesh. */
-constexpr std::size_t kMeshSurflets = 4500;
-
 struct Options {
   double delta_max = 0;
   std::uint64_t pairs = 1000000, seed = 1, neighbours = 0;
 };
 
-pcl::PointCloud<pcl::PointNormal>::Ptr
-toCloud(const SurfletSet& surflets)
-{
-  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
-  cloud->reserve(surflets.size());
-  for (std::size_t i = 0; i < surflets.size(); ++i) {
-    const Surflet s = surflets[i];
-    cloud->push_back(pcl::PointNormal(s.x, s.y, s.z, s.nx, s.ny, s.nz));
-  }
-  return cloud;
-}
-
 pcl::PointCloud<SurfletPairHistogram625>
 describe(const std::string& path, const Options& o)
 {
-  SurfaceFileOptions loading;
-  loading.estimate_normals = static_cast<int>(o.neighbours);
-  const auto cloud = toCloud(surfletsOf(loadSurface(path, loading), kMeshSurflets, o.seed));
+  const auto cloud =
+      cloudOf(surfletsOf(readSurface(path, o.neighbours, 0), kQuerySurflets, o.seed));
   SurfletPairHistogramEstimation<pcl::PointNormal, pcl::PointNormal> estimation;
   estimation.setInputCloud(cloud);
   estimation.setInputNormals(cloud);

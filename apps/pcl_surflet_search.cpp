@@ -1,10 +1,9 @@
 // Finds the models of a large collection that resemble a file, and scores collections with classes.
 
-#include "app_common.h"
+#include "queries.h"
 
 #include "pcl_surflet/model_search.h"
 #include "pcl_surflet/recognition/retrieval_figures.h"
-#include "pcl_surflet/surface_file.h"
 
 #include <fstream>
 #include <iostream>
@@ -18,13 +17,12 @@ namespace {
 
 constexpr const char* kProgram = "pcl_surflet_search";
 
-/** Surflets drawn from a mesh to make a query of it. */
-constexpr std::size_t kMeshSurflets = 4500;
+struct Options : QueryOptions {
+  Options() { top = 10; }
 
-struct Options {
-  std::string database, classes;
-  std::uint64_t features = 0, top = 10, seed = 1, threads = 0, neighbours = 0, shortlist = 0;
-  bool exhaustive = false, csv = false;
+  std::string classes;
+  std::uint64_t shortlist = 0;
+  bool exhaustive = false;
   std::vector<std::string> files;
 };
 
@@ -37,19 +35,12 @@ readOptions(int argc, char** argv, Options& o)
                    "most,\nregardless of size; or, with -classes, takes every model as a query and "
                    "prints\nnearest-neighbour, first-tier and second-tier rates and the precision "
                    "over the recall.");
-  line.text("-database", "DB.pcd", "the database (required)", o.database);
+  addQueryOptions(line, "file,rank,label,score", o);
   line.text("-classes", "FILE.csv", "score the collection: a table of label,class per line",
             o.classes);
-  line.count("-top", "N", "models listed per file, default 10", o.top, 1, 1000000);
-  line.count("-features", "N", "pairs drawn per query, default 2000 or twice the number of bins",
-             o.features, 1, 1000000000);
   line.count("-shortlist", "N", "histograms compared by likelihood, default 100", o.shortlist, 1,
              100000000);
   line.flag("-exhaustive", "compare with every model, without index", o.exhaustive);
-  addSeed(line, o.seed);
-  addThreads(line, o.threads);
-  addNeighbours(line, o.neighbours);
-  line.flag("-csv", "print a table with the columns file,rank,label,score", o.csv);
   if (!line.parse(argc, argv))
     return false;
   line.require("-database");
@@ -73,14 +64,10 @@ searchFor(const Options& o, const ModelDatabase& database)
 void
 searchFile(const Options& o, const ModelSearch& search, const std::string& path)
 {
-  SurfaceFileOptions loading;
-  loading.estimate_normals = static_cast<int>(o.neighbours);
-  loading.threads = static_cast<unsigned>(o.threads);
-  const SurfletSet query = surfletsOf(loadSurface(path, loading), kMeshSurflets, o.seed);
+  const SurfletSet query = queryFrom(path, o, o.threads);
   const auto hits = o.exhaustive ? search.searchAll(query, o.top) : search.search(query, o.top);
   if (hits.empty())
-    throw DataError("no pair of its points has a feature; give a cloud of at least two different "
-                    "points");
+    refuseQueryWithoutPairs();
   if (!o.csv)
     std::cout << path << ":\n";
   for (std::size_t r = 0; r < hits.size(); ++r)

@@ -5,6 +5,7 @@ set -euo pipefail
 packages=(
   build-essential ca-certificates cmake ninja-build ccache git
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
+  libboost-mpi-dev openmpi-bin  # several processes; without them one process does it all
   libgtest-dev libbenchmark-dev libnanoflann-dev
   pkg-config clang lintian fakeroot file  # headers, consumers and packages are tested with them
   gnuplot-nox fonts-dejavu-core

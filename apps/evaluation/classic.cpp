@@ -1,5 +1,7 @@
 #include "evaluation/classic.h"
 
+#include "surfaces.h"
+
 #include <flann/flann.hpp>
 #include <pcl/features/esf.h>
 #include <pcl/features/vfh.h>
@@ -24,17 +26,6 @@ constexpr int kRansacIterations = 500;
 /** \brief VFH sees every scene from far above: so it does not depend on the place of an object, nor
  * on how it is turned about the vertical. */
 constexpr float kViewpointHeight = 1000;
-
-Cloud::Ptr
-cloudOf(const SurfletSet& cells)
-{
-  Cloud::Ptr cloud(new Cloud);
-  cloud->resize(cells.size());
-  for (std::size_t i = 0; i < cells.size(); ++i)
-    (*cloud)[i] =
-        pcl::PointNormal(cells.x[i], cells.y[i], cells.z[i], cells.nx[i], cells.ny[i], cells.nz[i]);
-  return cloud;
-}
 
 /** \brief Indices of what is left of \p cloud once its largest planes are gone. */
 pcl::IndicesPtr

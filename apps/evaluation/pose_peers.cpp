@@ -1,5 +1,7 @@
 #include "evaluation/pose_peers.h"
 
+#include "surfaces.h"
+
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/core/linear_octree.h"
 
@@ -30,16 +32,6 @@ using Signatures = pcl::PointCloud<pcl::SHOT352>;
 constexpr int kIcpIterations = 40;
 constexpr double kIcpReach = 3;    // in cells
 constexpr int kFewestAgreeing = 4; // correspondences of a geometrically consistent group
-
-Cloud::Ptr
-cloudOf(const SurfletSet& set)
-{
-  Cloud::Ptr cloud(new Cloud);
-  cloud->resize(set.size());
-  for (std::size_t i = 0; i < set.size(); ++i)
-    (*cloud)[i] = pcl::PointNormal(set.x[i], set.y[i], set.z[i], set.nx[i], set.ny[i], set.nz[i]);
-  return cloud;
-}
 
 /** \brief Every k-th point, so that about \p most remain. */
 SurfletSet

@@ -105,15 +105,21 @@ private:
   std::uint64_t pairs_ = 0;
 };
 
-/** \brief Runs \p work(item, counts of the worker) over all items and sums the counts. */
+/** \brief Runs \p work(item, counts of the worker) over the items of \p share, which are every
+ * parts-th, and sums the counts. */
 template <class Work>
 PairHistogram
-countParallel(std::size_t items, unsigned threads, const Resolution& resolution, const Work& work)
+countParallel(std::size_t all, unsigned threads, const PairShare& share,
+              const Resolution& resolution, const Work& work)
 {
+  if (share.part >= share.parts)
+    throw std::invalid_argument("pcl_surflet: the share of the pairs is none of its parts");
+  const std::size_t items = all > share.part ? (all - share.part - 1) / share.parts + 1 : 0;
   threads = static_cast<unsigned>(std::min<std::size_t>(resolveThreads(threads), items));
   std::vector<WorkerCounts> workers(std::max(threads, 1u), WorkerCounts(resolution));
-  parallelFor(items, threads,
-              [&](std::size_t item, unsigned worker) { work(item, workers[worker]); });
+  parallelFor(items, threads, [&](std::size_t item, unsigned worker) {
+    work(share.part + item * share.parts, workers[worker]);
+  });
   PairHistogram sum(resolution);
   for (auto& worker : workers)
     sum.merge(worker.finish());
@@ -158,7 +164,7 @@ PairSource::PairSource(const SurfletSet& set) : unit_(toUnitScale(set))
 
 PairHistogram
 countAllPairs(const PairSource& source, const Resolution& resolution, double delta_max,
-              unsigned threads)
+              unsigned threads, const PairShare& share)
 {
   checkMapping(resolution, delta_max);
   const BinMap map(resolution, delta_max * source.scale());
@@ -176,12 +182,12 @@ countAllPairs(const PairSource& source, const Resolution& resolution, double del
         break;
     }
   };
-  return countParallel((shifts + 1) / 2, threads, resolution, work);
+  return countParallel((shifts + 1) / 2, threads, share, resolution, work);
 }
 
 PairHistogram
 countDrawnPairs(const PairSource& source, const Resolution& resolution, double delta_max,
-                std::uint64_t n, std::uint64_t seed, unsigned threads)
+                std::uint64_t n, std::uint64_t seed, unsigned threads, const PairShare& share)
 {
   checkMapping(resolution, delta_max);
   if (source.size() < 2)
@@ -192,7 +198,7 @@ countDrawnPairs(const PairSource& source, const Resolution& resolution, double d
         drawnBlock(source.records(), source.size(), block, n - block * kDrawBlock, seed);
     kernels::active().countDrawn(drawn, map, counts.reserve(drawn.n));
   };
-  return countParallel((n + kDrawBlock - 1) / kDrawBlock, threads, resolution, work);
+  return countParallel((n + kDrawBlock - 1) / kDrawBlock, threads, share, resolution, work);
 }
 
 PairHistogram
@@ -217,7 +223,7 @@ countStreamedPairs(const PairSource& source, const Resolution& resolution, doubl
       kernel.countStream(columns.from(straight), columns, pairs - straight, map,
                          counts.reserve(pairs - straight));
   };
-  return countParallel((n + m - 1) / m, threads, resolution, work);
+  return countParallel((n + m - 1) / m, threads, PairShare(), resolution, work);
 }
 
 FeatureSample

@@ -57,6 +57,22 @@ HistogramModelTrainer::setMeshSampling(std::size_t surflets, unsigned samplings)
   mesh_samplings_ = samplings;
 }
 
+void
+HistogramModelTrainer::setPairShare(const PairShare& share,
+                                    std::function<PairHistogram(const PairHistogram&)> sum)
+{
+  if (share.part >= share.parts)
+    throw std::invalid_argument("pcl_surflet: the share of the pairs is none of its parts");
+  share_ = share;
+  sum_ = std::move(sum);
+}
+
+PairHistogram
+HistogramModelTrainer::summed(const PairHistogram& own) const
+{
+  return sum_ ? sum_(own) : own;
+}
+
 SurfletSet
 HistogramModelTrainer::evened(const std::string& label, const SurfletSet& set) const
 {
@@ -88,9 +104,10 @@ HistogramModelTrainer::train(const std::string& label, const SurfletSet& surflet
   const PairSource source(even);
   const std::uint64_t all = std::uint64_t{even.size()} * (even.size() - 1) / 2;
   const auto histogram =
-      all <= pairs_ ? countAllPairs(source, resolution_, delta_max, threads_)
-                    : countDrawnPairs(source, resolution_, delta_max, pairs_, seed_, threads_);
-  return finish(label, histogram, even, delta_max, 0);
+      all <= pairs_
+          ? countAllPairs(source, resolution_, delta_max, threads_, share_)
+          : countDrawnPairs(source, resolution_, delta_max, pairs_, seed_, threads_, share_);
+  return finish(label, summed(histogram), even, delta_max, 0);
 }
 
 HistogramModel
@@ -111,11 +128,11 @@ HistogramModelTrainer::train(const std::string& label, const TriangleMesh& mesh)
   PairHistogram sum(resolution_);
   SurfletSet all;
   for (const auto& sampling : samplings) {
-    sum.merge(countAllPairs(PairSource(sampling), resolution_, delta_max, threads_));
+    sum.merge(countAllPairs(PairSource(sampling), resolution_, delta_max, threads_, share_));
     for (std::size_t i = 0; i < sampling.size(); ++i)
       all.push_back(sampling[i]);
   }
-  return finish(label, sum, all, delta_max, surfaceArea(mesh));
+  return finish(label, summed(sum), all, delta_max, surfaceArea(mesh));
 }
 
 HistogramModel

@@ -51,30 +51,53 @@ execute(const std::vector<std::string>& command, const std::string& out, const s
 
 } // namespace
 
+std::string
+appPath(const std::string& app)
+{
+  return std::string(PCL_SURFLET_APP_DIRECTORY) + "/pcl_surflet_" + app;
+}
+
+Running::Running(const std::vector<std::string>& command, const std::string& out)
+{
+  const std::string name =
+      (fs::temp_directory_path() / ("surflet_run_" + std::to_string(::getpid()))).string();
+  keep_out_ = !out.empty();
+  out_file_ = keep_out_ ? out : name + ".out";
+  err_file_ = name + ".err";
+  fs::remove(err_file_);
+  pid_ = ::fork();
+  if (pid_ == 0)
+    execute(command, out_file_, err_file_);
+}
+
+std::string
+Running::err() const
+{
+  return readFile(err_file_);
+}
+
+AppRun
+Running::wait()
+{
+  int status = 0;
+  ::waitpid(pid_, &status, 0);
+  AppRun result;
+  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  result.err = readFile(err_file_);
+  fs::remove(err_file_);
+  if (!keep_out_) {
+    result.out = readFile(out_file_);
+    fs::remove(out_file_);
+  }
+  return result;
+}
+
 AppRun
 run(const std::string& app, const std::vector<std::string>& arguments, const std::string& out)
 {
-  const fs::path directory = fs::temp_directory_path();
-  const std::string name = "surflet_run_" + std::to_string(::getpid());
-  const std::string out_file = out.empty() ? (directory / (name + ".out")).string() : out;
-  const std::string err_file = (directory / (name + ".err")).string();
-  std::vector<std::string> command = {std::string(PCL_SURFLET_APP_DIRECTORY) + "/pcl_surflet_" +
-                                      app};
+  std::vector<std::string> command = {appPath(app)};
   command.insert(command.end(), arguments.begin(), arguments.end());
-  const pid_t child = ::fork();
-  if (child == 0)
-    execute(command, out_file, err_file);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  AppRun result;
-  result.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  result.err = readFile(err_file);
-  fs::remove(err_file);
-  if (out.empty()) {
-    result.out = readFile(out_file);
-    fs::remove(out_file);
-  }
-  return result;
+  return Running(command, out).wait();
 }
 
 std::string

@@ -18,6 +18,31 @@ struct AppRun {
   std::string out, err;
 };
 
+/** \brief Where \p app ("train" for pcl_surflet_train) lies. */
+std::string appPath(const std::string& app);
+
+/** \brief A program at work, for at most a minute and with 3 GiB; one at a time. */
+class Running {
+public:
+  /** \param command path and arguments \param out where stdout goes instead of into the result */
+  explicit Running(const std::vector<std::string>& command, const std::string& out = {});
+
+  int
+  pid() const
+  {
+    return pid_;
+  }
+  /** \brief What it has said on stderr so far. */
+  std::string err() const;
+  /** \brief Waits for its end. */
+  AppRun wait();
+
+private:
+  int pid_ = -1;
+  bool keep_out_ = false;
+  std::string out_file_, err_file_;
+};
+
 /** \brief Runs \p app ("train" for pcl_surflet_train) with at most a minute and 3 GiB.
  * \param out where stdout goes instead of into the result */
 AppRun run(const std::string& app, const std::vector<std::string>& arguments,

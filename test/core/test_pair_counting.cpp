@@ -132,6 +132,35 @@ TEST(PairCounting, DrawnPairsAreThePairsThatDrawPairsNames)
   EXPECT_LE(moved(h, expected), 2u);
 }
 
+TEST(PairCounting, SharesAddUpToTheWhole)
+{
+  const Resolution r{5, 5, 5, 5};
+  constexpr std::uint64_t kDrawn = 50000;
+  for (const std::size_t n : {3u, 300u, 301u}) {
+    const PairSource source(mixedCloud(n, 11));
+    const auto all = countAllPairs(source, r, 2.0),
+               drawn = countDrawnPairs(source, r, 2.0, kDrawn, 4);
+    for (const std::size_t parts : {1u, 2u, 3u, 20u}) {
+      PairHistogram all_sum(r), drawn_sum(r);
+      for (std::size_t part = 0; part < parts; ++part) {
+        const auto share = countAllPairs(source, r, 2.0, 2, {part, parts});
+        all_sum.merge(share);
+        if (n >= 300 && parts <= 3) {
+          EXPECT_NEAR(double(share.features + share.rejected) * double(parts),
+                      double(all.features + all.rejected), 0.02 * double(all.features))
+              << "shares are alike";
+        }
+        drawn_sum.merge(countDrawnPairs(source, r, 2.0, kDrawn, 4, 2, {part, parts}));
+      }
+      EXPECT_EQ(all_sum.counts, all.counts) << n << ", " << parts;
+      EXPECT_EQ(all_sum.rejected, all.rejected) << n << ", " << parts;
+      EXPECT_EQ(drawn_sum.counts, drawn.counts) << n << ", " << parts;
+      EXPECT_EQ(drawn_sum.features, drawn.features) << n << ", " << parts;
+      EXPECT_EQ(drawn_sum.rejected, drawn.rejected) << n << ", " << parts;
+    }
+  }
+}
+
 TEST(PairCounting, SampleMapsToTheBinsOfTheHistogram)
 {
   const auto set = mixedCloud(500, 8);
@@ -328,5 +357,7 @@ TEST(PairCounting, MisuseThrows)
   EXPECT_THROW(countAllPairs(source, {}, 0.0), std::invalid_argument);
   EXPECT_THROW(countAllPairs(source, {}, std::nan("")), std::invalid_argument);
   EXPECT_THROW(countDrawnPairs(source, {0, 5, 5, 5}, 1.0, 10, 1), std::invalid_argument);
+  EXPECT_THROW(countAllPairs(source, {}, 1.0, 1, {2, 2}), std::invalid_argument);
+  EXPECT_THROW(countDrawnPairs(source, {}, 1.0, 10, 1, 1, {0, 0}), std::invalid_argument);
   EXPECT_THROW(drawFeatures(source, {65, 5, 5, 5}, 10, 1), std::invalid_argument);
 }

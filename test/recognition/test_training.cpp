@@ -114,6 +114,37 @@ TEST(Training, SameSeedSameModelForAnyNumberOfThreads)
   EXPECT_NE(one.members[0].histogram, trainer.train("cup", set).members[0].histogram);
 }
 
+TEST(Training, SeveralProcessesTrainTheModelOfOne)
+{
+  constexpr std::size_t kParts = 3;
+  const auto torus = Shape::torus(0.1, 0.04);
+  const SurfletSet points = sampleShape(torus, 5000, 1);
+  const TriangleMesh mesh = meshOfShape(torus, 0.02);
+  const auto same = [&](const auto& data) {
+    const HistogramModel alone = quickTrainer().train("torus", data);
+    HistogramModelTrainer trainer = quickTrainer();
+    std::vector<PairHistogram> shares;
+    const auto keep = [&](const PairHistogram& own) { return shares.emplace_back(own), own; };
+    for (std::size_t part = 0; part < kParts; ++part) {
+      trainer.setPairShare({part, kParts}, keep);
+      EXPECT_NE(trainer.train("torus", data).members[0].histogram, alone.members[0].histogram)
+          << "a share alone is another histogram";
+    }
+    ASSERT_EQ(shares.size(), kParts);
+    trainer.setPairShare({1, kParts}, [&](PairHistogram own) {
+      own.merge(shares[0]);
+      own.merge(shares[2]);
+      return own;
+    });
+    const HistogramModel together = trainer.train("torus", data);
+    EXPECT_EQ(together.members[0].histogram, alone.members[0].histogram);
+    EXPECT_EQ(together.members[0].features, alone.members[0].features);
+    EXPECT_EQ(together.delta_max, alone.delta_max);
+  };
+  same(points);
+  same(mesh);
+}
+
 TEST(Training, UnevenDensityIsEvenedOutRefusedOrAccepted)
 {
   // A bottle whose lower half is nine times as dense as its upper half.
@@ -160,6 +191,7 @@ TEST(Training, MisusedParametersThrow)
   EXPECT_THROW(trainer.setNumberOfPairs(0), std::invalid_argument);
   EXPECT_THROW(trainer.setMeshSampling(1, 1), std::invalid_argument);
   EXPECT_THROW(trainer.setMeshSampling(10, 0), std::invalid_argument);
+  EXPECT_THROW(trainer.setPairShare({1, 1}, nullptr), std::invalid_argument);
 }
 
 TEST(HistogramModel, NamesWhatIsWrong)

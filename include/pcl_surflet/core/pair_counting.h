@@ -57,15 +57,23 @@ private:
   const float* records_ = nullptr;
 };
 
+/** \brief One of several shares of the pairs that a call would count, for counting in several
+ * processes: the histograms of shares 0 to parts - 1, merged, are the histogram of the whole. */
+struct PairShare {
+  std::size_t part = 0, parts = 1;
+};
+
 /** \brief Features of all m(m-1)/2 pairs [Wahl 2007, Eq. 2.19]; each unordered pair once.
  *
  * \param source the surflets
  * \param resolution intervals in every dimension
  * \param delta_max in the unit of the set, > 0; longer pairs go to the last delta interval
  * \param threads 0: all; the result is the same for any number
- * \throws std::invalid_argument for an unusable resolution or delta_max */
+ * \param share what is counted of them, default all
+ * \throws std::invalid_argument for an unusable resolution, delta_max or share */
 PCL_SURFLET_API PairHistogram countAllPairs(const PairSource& source, const Resolution& resolution,
-                                            double delta_max, unsigned threads = 0);
+                                            double delta_max, unsigned threads = 0,
+                                            const PairShare& share = {});
 
 /** \brief Features of \p n pairs drawn uniformly, with replacement, from the pairs of different
  * surflets [Wahl 2007, Sec. 2.3.2]. Pairs without feature count as drawn.
@@ -75,7 +83,7 @@ PCL_SURFLET_API PairHistogram countAllPairs(const PairSource& source, const Reso
 PCL_SURFLET_API PairHistogram countDrawnPairs(const PairSource& source,
                                               const Resolution& resolution, double delta_max,
                                               std::uint64_t n, std::uint64_t seed,
-                                              unsigned threads = 0);
+                                              unsigned threads = 0, const PairShare& share = {});
 
 /** \brief Features of \p n pairs (i, i + s mod m) of the shuffled set, for shifts s drawn at
  * random.

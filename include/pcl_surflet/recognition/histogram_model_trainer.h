@@ -2,10 +2,12 @@
  * Training of models from surflets and from meshes. */
 #pragma once
 
+#include "pcl_surflet/core/pair_counting.h"
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
 #include "pcl_surflet/recognition/histogram_model.h"
 
+#include <functional>
 #include <stdexcept>
 
 namespace pcl_surflet {
@@ -95,6 +97,13 @@ public:
     return mesh_surflets_;
   }
 
+  /** \brief Lets several processes train one model together, all of them on the same data: each
+   * counts its \p share of the pairs, and \p sum returns what all of them counted, merged. Then all
+   * have the model that one process would have trained. Called once in every train(), from the
+   * calling thread; what it throws comes through. Default: one process, no \p sum.
+   * \throws std::invalid_argument if \p share is none of its parts */
+  void setPairShare(const PairShare& share, std::function<PairHistogram(const PairHistogram&)> sum);
+
   /** \brief Trains from an oriented cloud: k drawn pairs, or all if there are no more.
    *
    * \param label 1 to 63 bytes
@@ -112,6 +121,7 @@ public:
   SurfletSet evened(const std::string& label, const SurfletSet& surflets) const;
 
 private:
+  PairHistogram summed(const PairHistogram& own) const;
   HistogramModel finish(const std::string& label, const PairHistogram& histogram,
                         const SurfletSet& surflets, double delta_max, double area) const;
 
@@ -123,6 +133,8 @@ private:
   ModelRole role_ = ModelRole::Object;
   std::size_t mesh_surflets_ = 4500;
   unsigned mesh_samplings_ = 5;
+  PairShare share_;
+  std::function<PairHistogram(const PairHistogram&)> sum_;
 };
 
 } // namespace pcl_surflet

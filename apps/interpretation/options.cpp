@@ -1,0 +1,76 @@
+#include "interpretation/options.h"
+
+#include "scene_items.h"
+
+namespace pcl_surflet {
+namespace apps {
+namespace {
+
+void
+addOptions(CommandLine& line, InterpretOptions& o)
+{
+  line.text("-database", "DB.pcd", "models, made by pcl_surflet_train (best with -bins 7,7,7,7)",
+            o.database);
+  addChoice<Method>(line, "-method", "default explanation", o.method,
+                    {{"explanation", Method::Explanation}, {"dissertation", Method::Dissertation}});
+  addChoice<BackgroundTreatment>(line, "-background", "default ignore", o.background,
+                                 {{"ignore", BackgroundTreatment::Ignore},
+                                  {"exclude", BackgroundTreatment::Exclude},
+                                  {"model", BackgroundTreatment::Model}});
+  line.text("-empty", "EMPTY.pcd", "exclude: the scene sensed without objects", o.empty);
+  line.count("-planes", "N", "exclude: the N largest planes, 1 for a table, 2 for a shelf",
+             o.planes, 1, 100);
+  line.real("-distance", "D", "exclude: what is so near to the background, default a cell",
+            o.distance, 1e-9, 1e9);
+  line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
+            1e-9, 1e9);
+  line.count("-max", "N", "detections, those of the most points, default all", o.detections, 1,
+             1000000);
+  line.text("-out", "OUT.pcd",
+            "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
+  line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
+            o.objects_dir);
+  line.text("-picture", "OUT.png",
+            "the scene with its objects coloured and named, and with -pose the models as dark "
+            "points; one scene only",
+            o.picture);
+  o.pose.addOptions(line);
+  line.flag("-csv", "prints CSV", o.csv);
+  line.flag("-verbose", "prints what each step did for each model to stderr", o.verbose);
+  addNeighbours(line, o.neighbours);
+  addSeed(line, o.seed);
+  addThreads(line, o.threads);
+}
+
+void
+checkBackground(const CommandLine& line, const InterpretOptions& o)
+{
+  const bool excludes = o.background == BackgroundTreatment::Exclude;
+  for (const char* name : {"-empty", "-planes", "-distance"})
+    if (!excludes && line.given(name))
+      throw UsageError(std::string("option ") + name + " goes with -background exclude");
+  if (excludes && !line.given("-empty") && !line.given("-planes"))
+    throw UsageError("option -background exclude needs -empty or -planes");
+}
+
+} // namespace
+
+bool
+readInterpretOptions(const std::string& program, int argc, char** argv, InterpretOptions& o)
+{
+  CommandLine line(program, "SCENE...",
+                   "Finds and names the objects of scenes (PCD or PLY with normals, or see -k).");
+  addOptions(line, o);
+  if (!line.parse(argc, argv))
+    return false;
+  line.require("-database");
+  line.requireFiles(1, line.given("-out") || line.given("-picture") ? 1 : 1000000);
+  checkBackground(line, o);
+  if (line.given("-viewpoints") && !line.given("-pose"))
+    throw UsageError("option -viewpoints goes with -pose");
+  o.files = line.files();
+  return true;
+}
+
+} // namespace apps
+} // namespace pcl_surflet

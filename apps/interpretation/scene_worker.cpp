@@ -1,0 +1,122 @@
+#include "interpretation/scene_worker.h"
+
+#include "interpretation/text.h"
+#include "labelled_pcd.h"
+#include "surfaces.h"
+
+namespace pcl_surflet {
+namespace apps {
+namespace {
+
+SurfletSet
+surfletsIn(const std::string& path, const InterpretOptions& o, std::vector<std::string>& notes)
+{
+  SurfaceFile file = readSurface(path, o.neighbours, o.threads);
+  if (file.mesh)
+    throw DataError(path + ": is a mesh; give a cloud with normals");
+  if (file.rejected > 0)
+    notes.push_back(losses(path, file));
+  return std::move(file.surflets);
+}
+
+/** \brief Instances are numbered in the order of the detections, as the objects' files are. */
+PointLabels
+labelsOf(std::size_t points, const std::vector<SceneDetection>& detections)
+{
+  PointLabels labels{std::vector<std::uint32_t>(points), std::vector<std::uint32_t>(points)};
+  for (std::size_t k = 0; k < detections.size(); ++k)
+    for (const auto i : detections[k].indices) {
+      labels.labels[static_cast<std::size_t>(i)] =
+          static_cast<std::uint32_t>(detections[k].model + 1);
+      labels.instances[static_cast<std::size_t>(i)] = static_cast<std::uint32_t>(k + 1);
+    }
+  return labels;
+}
+
+/** \brief \p label as part of a file name: what could lead elsewhere becomes '_'. */
+std::string
+fileName(std::string label)
+{
+  for (char& c : label)
+    if (c == '/' || c == '\\' || c == ':' || c == ' ')
+      c = '_';
+  return label;
+}
+
+/** \brief One PCD an object: SCENE_1_cup.pcd. */
+std::vector<NamedContent>
+objectFiles(const std::string& path, const SurfletSet& scene,
+            const std::vector<SceneDetection>& detections)
+{
+  std::vector<NamedContent> files;
+  for (const auto& d : detections) {
+    const std::vector<std::uint32_t> points(d.indices.begin(), d.indices.end());
+    files.push_back(
+        {stemOf(path) + "_" + std::to_string(files.size() + 1) + "_" + fileName(d.label) + ".pcd",
+         asPcd(scene.subset(points), nullptr)});
+  }
+  return files;
+}
+
+} // namespace
+
+SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& o,
+                         std::vector<std::string>& notes)
+    : o_(o)
+{
+  interpreter_.setDatabase(database);
+  interpreter_.setMethod(o.method);
+  interpreter_.setBackgroundTreatment(o.background);
+  interpreter_.setLeafSize(o.leaf);
+  interpreter_.setSeed(o.seed);
+  interpreter_.setNumberOfThreads(static_cast<unsigned>(o.threads));
+  interpreter_.setMaximumDetections(o.detections);
+  ExclusionOptions exclusion;
+  exclusion.distance = o.distance;
+  interpreter_.setExclusionOptions(exclusion);
+  if (o.planes > 0)
+    interpreter_.setBackgroundPlanes(std::vector<BackgroundPlane>(o.planes));
+  if (!o.empty.empty())
+    interpreter_.setBackgroundCloud(cloudOf(surfletsIn(o.empty, o, notes)));
+}
+
+void
+SceneWorker::interpretInto(const std::string& path, InterpretedScene& out)
+{
+  const SurfletSet scene = surfletsIn(path, o_, out.notes);
+  const auto cloud = cloudOf(scene);
+  interpreter_.setInputCloud(cloud);
+  const auto found = interpreter_.interpret();
+  const auto& diagnostics = interpreter_.getDiagnostics();
+  if (diagnostics.status > SceneStatus::Cancelled)
+    throw DataError(diagnostics.reason);
+  const auto poses = o_.pose.estimate(cloud, found, o_.seed);
+  out.found = foundText(path, found, poses, diagnostics, o_.csv);
+  if (o_.verbose)
+    out.steps = stepsText(o_.method, diagnostics);
+  if (!o_.objects_dir.empty())
+    out.objects = objectFiles(path, scene, found);
+  if (o_.out.empty() && o_.picture.empty())
+    return;
+  const PointLabels labels = labelsOf(scene.size(), found);
+  out.labelled = asPcd(scene, &labels);
+  const SurfletSet surfaces = o_.pose.surfaces(found, poses);
+  if (!o_.picture.empty() && !surfaces.empty())
+    out.posed = asPcd(surfaces, nullptr);
+}
+
+InterpretedScene
+SceneWorker::interpret(const std::string& path)
+{
+  InterpretedScene out;
+  try {
+    interpretInto(path, out);
+  }
+  catch (const std::exception& error) {
+    out.error = error.what();
+  }
+  return out;
+}
+
+} // namespace apps
+} // namespace pcl_surflet
