@@ -88,27 +88,29 @@ TEST(OnlineCells, WhatIsTakenBackNeverWas)
 
 TEST(OnlineCells, NearHoldsAllWithinReachAndLittleElse)
 {
-  OnlineCells cells(kLeaf, 0.3);
+  constexpr double kBlock = 0.3, kReach = 0.5;
+  OnlineCells cells(kLeaf, kBlock);
   cells.begin();
-  added(cells, cloud(3000, 4));
-  const std::vector<Place> places = {{0.1, 0.2, -0.3}, {-0.9, 0.9, 0.9}};
-  const double reach = 0.5;
-  const auto found = cells.near(places, reach);
-  const std::set<std::uint32_t> is_found(found.begin(), found.end());
-  EXPECT_LT(found.size(), cells.means().size());
-  for (std::uint32_t c = 0; c < cells.means().size(); ++c) {
-    double nearest = 9;
-    for (const auto& p : places) {
+  added(cells, cloud(8000, 4));
+  CounterRandom random(5);
+  std::size_t within = 0;
+  for (int k = 0; k < 30; ++k) {
+    const Place q = {random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1)};
+    const auto found = cells.near({q, {9, 9, 9}}, kReach);
+    const std::set<std::uint32_t> is_found(found.begin(), found.end());
+    for (std::uint32_t c = 0; c < cells.means().size(); ++c) {
       const Place at = cells.placeOf(c);
-      nearest = std::min(nearest, std::hypot(at[0] - p[0], at[1] - p[1], at[2] - p[2]));
-    }
-    if (nearest <= reach) {
-      EXPECT_EQ(is_found.count(c), 1U) << nearest;
-    }
-    if (nearest > reach + 3 * 0.3 * std::sqrt(3.0)) {
-      EXPECT_EQ(is_found.count(c), 0U) << nearest;
+      const double d = std::hypot(at[0] - q[0], at[1] - q[1], at[2] - q[2]);
+      within += d <= kReach;
+      if (d <= kReach) {
+        ASSERT_EQ(is_found.count(c), 1U) << d;
+      }
+      if (d > kReach + 2 * kBlock * std::sqrt(3.0)) { // a block's diagonal at either end
+        ASSERT_EQ(is_found.count(c), 0U) << d;
+      }
     }
   }
+  EXPECT_GT(within, 1000U);
 }
 
 TEST(OnlineCells, WhatIsRemovedIsGoneAndItsNumberToo)

@@ -248,7 +248,8 @@ Indices
 OnlineCells::near(const std::vector<Place>& places, double reach) const
 {
   const double edge = leaf_ * static_cast<double>(cells_per_block_);
-  const auto n = static_cast<std::int64_t>(std::ceil(reach / edge));
+  const double in_blocks = reach / edge;
+  const auto n = static_cast<std::int64_t>(std::ceil(in_blocks));
   std::unordered_set<CellKey, CellKeyHash> origins, blocks;
   for (const auto& p : places) {
     CellKey key;
@@ -260,7 +261,7 @@ OnlineCells::near(const std::vector<Place>& places, double reach) const
     for (std::int64_t x = -n; x <= n; ++x)
       for (std::int64_t y = -n; y <= n; ++y)
         for (std::int64_t z = -n; z <= n; ++z)
-          if (gap(x) + gap(y) + gap(z) <= n * n)
+          if (static_cast<double>(gap(x) + gap(y) + gap(z)) <= in_blocks * in_blocks)
             blocks.insert({o[0] + x, o[1] + y, o[2] + z});
   Indices found;
   for (const auto& b : blocks)
