@@ -23,7 +23,7 @@ constexpr const char* kProgram = "pcl_surflet_replay";
 struct Options {
   std::string database, empty, out;
   BackgroundTreatment background = BackgroundTreatment::Ignore;
-  double leaf = 0;
+  double leaf = 0, behind = OnlineParameters().behind;
   std::uint64_t seed = 1, threads = 0;
   bool csv = false;
 };
@@ -83,14 +83,15 @@ print(const std::string& path, const OnlineScan& scan, const OnlineInterpretatio
 {
   const std::string found = textOf(online.detections());
   if (csv) {
-    std::printf("%s,%zu,%zu,%zu,%zu,%s,%zu,%zu,%s\n", csvField(path).c_str(), scan.surflets,
-                scan.cells, scan.changed_cells, scan.interpreted_cells, csvField(found).c_str(),
+    std::printf("%s,%zu,%zu,%zu,%zu,%zu,%zu,%zu,%s,%zu,%zu,%s\n", csvField(path).c_str(),
+                scan.surflets, scan.cells, scan.changed_cells, scan.vanished_cells,
+                scan.interpreted_cells, scan.kept, scan.sought, csvField(found).c_str(),
                 online.attractors().size(), online.distractors().size(), number(seconds).c_str());
     return;
   }
-  std::printf("%s: %zu points, %zu cells, %zu changed, %zu interpreted, %.2f s: %s\n", path.c_str(),
-              scan.surflets, scan.cells, scan.changed_cells, scan.interpreted_cells, seconds,
-              found.empty() ? "nothing found" : found.c_str());
+  std::printf("%s: %zu points, %zu cells, %zu changed, %zu vanished, %zu interpreted, %.2f s: %s\n",
+              path.c_str(), scan.surflets, scan.cells, scan.changed_cells, scan.vanished_cells,
+              scan.interpreted_cells, seconds, found.empty() ? "nothing found" : found.c_str());
   for (const auto& a : online.attractors())
     std::printf("  look at %.3f %.3f %.3f from the side of %.2f %.2f %.2f (%s)\n", a.centre[0],
                 a.centre[1], a.centre[2], a.view_from[0], a.view_from[1], a.view_from[2],
@@ -102,6 +103,7 @@ parametersFor(const ModelDatabase& database, const Options& o)
 {
   OnlineParameters p;
   p.leaf = detail::leafOf(o.leaf, database);
+  p.behind = o.behind;
   p.explanation.steps.background = o.background;
   p.explanation.steps.seed = o.seed;
   p.explanation.steps.threads = static_cast<unsigned>(o.threads);
@@ -110,6 +112,7 @@ parametersFor(const ModelDatabase& database, const Options& o)
     if (file.mesh)
       throw DataError(o.empty + ": is a mesh; give a cloud with normals");
     p.empty_scene = file.surflets;
+    p.explanation.steps.background = BackgroundTreatment::Exclude;
   }
   return p;
 }
@@ -118,14 +121,21 @@ void
 writeLabels(const std::string& path, const OnlineInterpretation& online)
 {
   const std::size_t n = online.cells().size();
-  PointLabels labels{std::vector<std::uint32_t>(n), std::vector<std::uint32_t>(n)};
+  std::vector<std::uint32_t> label(n), instance(n);
   for (const auto& d : online.detections())
     for (const auto c : d.cells)
       if (d.state != OnlineState::Vanished) {
-        labels.labels[c] = static_cast<std::uint32_t>(d.model + 1);
-        labels.instances[c] = static_cast<std::uint32_t>(d.id);
+        label[c] = static_cast<std::uint32_t>(d.model + 1);
+        instance[c] = static_cast<std::uint32_t>(d.id);
       }
-  writeFile(path, asPcd(online.cells(), &labels));
+  SurfletSet there; // cells that vanished hold NaN
+  PointLabels labels;
+  for (std::size_t c = 0; c < n; ++c)
+    if (there.appendChecked(online.cells()[c])) {
+      labels.labels.push_back(label[c]);
+      labels.instances.push_back(instance[c]);
+    }
+  writeFile(path, asPcd(there, &labels));
 }
 
 /** \brief Goes on after a scan that cannot be used. \return exit code */
@@ -136,7 +146,8 @@ replay(const std::vector<std::string>& files, const Options& o)
   OnlineSceneInterpreter online(database, parametersFor(database, o));
   int code = kOk;
   if (o.csv)
-    std::puts("file,points,cells,changed,interpreted,detections,attractors,distractors,seconds");
+    std::puts("file,points,cells,changed,vanished,interpreted,kept,sought,detections,attractors,"
+              "distractors,seconds");
   for (const auto& path : files)
     try {
       const auto cloud = readScan(path);
@@ -172,6 +183,9 @@ run(int argc, char** argv)
             o.empty);
   line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
             1e-9, 1e9);
+  line.real("-behind", "N",
+            "a cell vanishes if rays past it end N leaves behind it, default 1.5; 0: never",
+            o.behind, 0, 1e6);
   line.text("-out", "OUT.pcd",
             "the cells after the last scan; labels as pcl_surflet_interpret's, "
             "instances are ids",

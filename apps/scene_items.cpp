@@ -94,6 +94,7 @@ addArrangement(CommandLine& line, SceneOptions& o)
                          {"bowl", Background::Bowl}});
   line.real("-size", "S", "edge of the background, or opening of the bowl, default 1", o.size, 1e-6,
             1e6);
+  line.real("-width", "W", "edge of the background along y, default as -size", o.width, 1e-6, 1e6);
   line.real("-wall", "H", "height of walls, default 0.3", o.wall_height, 1e-6, 1e6);
   addChoice<Posture>(line, "-posture", "how objects stand, default upright", o.posture,
                      {{"upright", Posture::Upright},

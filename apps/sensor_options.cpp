@@ -11,12 +11,14 @@ addPlaces(CommandLine& line, ViewOptions& v)
 {
   addChoice<ViewSet>(line, "-views",
                      "what a virtual depth camera sees from there, in place of complete surfaces "
-                     "(ring24: every 30 degrees, two cameras)",
+                     "(ring24: every 30 degrees, two cameras; pass: along x and back on the other "
+                     "side)",
                      v.views,
                      {{"one", ViewSet::One},
                       {"two", ViewSet::Two},
                       {"ring24", ViewSet::Ring24},
-                      {"all24", ViewSet::All24}});
+                      {"all24", ViewSet::All24},
+                      {"pass", ViewSet::Pass}});
   line.real("-distance", "D", "of the sensors from the middle of the scene, default 1.4",
             v.distance, 1e-6, 1e6);
   line.real("-elevation", "A", "of the sensors above the horizon, degrees, default 45", v.elevation,
@@ -25,6 +27,9 @@ addPlaces(CommandLine& line, ViewOptions& v)
             89);
   line.real("-azimuth", "A", "of the first sensor about the vertical, degrees, default 0",
             v.azimuth, -360, 360);
+  line.real("-path", "L", "pass: length of the way, default 2", v.path, 0, 1e6);
+  line.option("-stops", "N", "pass: views in all, default 24",
+              [&v](const std::string& text) { v.stops = parseCount("-stops", text, 2, 10000); });
 }
 
 } // namespace

@@ -29,10 +29,10 @@ emptyCells(const SceneOptions& scene, const Sensing& sensing, double leaf)
 /** \brief Lets \p find see only what is not background, and gives its results the scene's indices.
  */
 SceneInterpretation
-findAwayFrom(const SurfletSet& empty, double leaf, const SurfletSet& cells,
+findAwayFrom(const SurfletSet& empty, double leaf, unsigned threads, const SurfletSet& cells,
              const std::function<SceneInterpretation(const SurfletSet&)>& find)
 {
-  const auto away = cellsAwayFrom(cells, empty, leaf);
+  const auto away = cellsAwayFrom(cells, empty, leaf, threads);
   SceneInterpretation found = find(cells.subset(away));
   for (auto& d : found.detections)
     for (auto& cell : d.cells)
@@ -74,7 +74,7 @@ public:
     };
     if (options_.dissertation.background != BackgroundTreatment::Exclude)
       return interpret(cells);
-    return findAwayFrom(empty_, options_.leaf, cells, interpret);
+    return findAwayFrom(empty_, options_.leaf, options_.dissertation.threads, cells, interpret);
   }
 
   double
@@ -122,7 +122,7 @@ class ClassicRecogniser : public Recogniser {
 public:
   ClassicRecogniser(const std::vector<SceneItem>& objects, const RecogniserOptions& o,
                     Descriptor descriptor, bool exclude)
-      : leaf_(o.leaf), sensing_(o.sensing), exclude_(exclude),
+      : leaf_(o.leaf), threads_(o.dissertation.threads), sensing_(o.sensing), exclude_(exclude),
         classic_(parametersOf(o, descriptor, exclude))
   {
     for (const auto& object : objects)
@@ -140,7 +140,7 @@ public:
   find(const SurfletSet& cells, std::uint64_t) const override
   {
     const auto name = [&](const SurfletSet& visible) { return named(visible); };
-    return exclude_ ? findAwayFrom(empty_, leaf_, cells, name) : name(cells);
+    return exclude_ ? findAwayFrom(empty_, leaf_, threads_, cells, name) : name(cells);
   }
 
 private:
@@ -189,6 +189,7 @@ private:
   }
 
   double leaf_;
+  unsigned threads_;
   Sensing sensing_;
   bool exclude_;
   TabletopClassic classic_;

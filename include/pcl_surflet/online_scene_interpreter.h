@@ -19,7 +19,7 @@ public:
   using OnlineInterpretation::OnlineInterpretation;
 
   /** \brief Takes in a scan in the frame of the scene. Points that are not finite, or whose normal
-   * has no direction, are left out.
+   * has no direction, are left out; cells that the scan has seen through vanish.
    * \param cloud positions
    * \param normals one per point; those that look away from the sensor are turned
    * \param sensor_origin where the sensor was, in the frame of the scene

@@ -28,19 +28,20 @@ struct Rectangle {
 std::vector<Rectangle>
 rectanglesOf(const SceneOptions& o)
 {
-  const double s = o.size, h = s / 2, w = o.wall_height;
+  const auto [x, y] = halfEdges(o);
+  const double w = o.wall_height;
   std::vector<Rectangle> all;
   if (o.background == Background::None || o.background == Background::Bowl)
     return all;
-  all.push_back({{-h, -h, 0}, {s, 0, 0}, {0, s, 0}, {0, 0, 1}});
+  all.push_back({{-x, -y, 0}, {2 * x, 0, 0}, {0, 2 * y, 0}, {0, 0, 1}});
   if (o.background == Background::Plane)
     return all;
-  all.push_back({{-h, h, 0}, {s, 0, 0}, {0, 0, w}, {0, -1, 0}});
+  all.push_back({{-x, y, 0}, {2 * x, 0, 0}, {0, 0, w}, {0, -1, 0}});
   if (o.background == Background::Corner)
     return all;
-  all.push_back({{-h, -h, 0}, {s, 0, 0}, {0, 0, w}, {0, 1, 0}});
-  all.push_back({{-h, -h, 0}, {0, s, 0}, {0, 0, w}, {1, 0, 0}});
-  all.push_back({{h, -h, 0}, {0, s, 0}, {0, 0, w}, {-1, 0, 0}});
+  all.push_back({{-x, -y, 0}, {2 * x, 0, 0}, {0, 0, w}, {0, 1, 0}});
+  all.push_back({{-x, -y, 0}, {0, 2 * y, 0}, {0, 0, w}, {1, 0, 0}});
+  all.push_back({{x, -y, 0}, {0, 2 * y, 0}, {0, 0, w}, {-1, 0, 0}});
   return all;
 }
 
@@ -117,6 +118,13 @@ backgroundMesh(const SceneOptions& o)
   for (const auto& rectangle : rectanglesOf(o))
     append(mesh, rectangle);
   return mesh;
+}
+
+std::array<double, 2>
+halfEdges(const SceneOptions& o)
+{
+  const bool is_square = o.background == Background::Bowl || !(o.width > 0);
+  return {o.size / 2, (is_square ? o.size : o.width) / 2};
 }
 
 double

@@ -124,6 +124,7 @@ void
 check(const SceneOptions& o)
 {
   requirePositive(o.size, "size");
+  requirePositive(o.width, "width", true);
   requirePositive(o.wall_height, "wall_height");
   requirePositive(o.density, "density");
   requirePositive(o.distance_factor, "distance_factor", true);

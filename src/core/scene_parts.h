@@ -37,6 +37,9 @@ struct PlacementItem {
 PlacementItem placementItem(const SurfletSet& upright, const Pose& posture);
 void translate(PlacementItem& item, const Vector3& by);
 
+/** \brief Half the edges of the background along x and y; of a bowl half its opening. */
+std::array<double, 2> halfEdges(const SceneOptions& options);
+
 /** \brief Height of what carries the items at (\p x, \p y). */
 double floorHeight(const SceneOptions& options, double x, double y);
 double backgroundArea(const SceneOptions& options);

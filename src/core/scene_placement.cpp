@@ -40,7 +40,8 @@ inside(const PlacementItem& item, const SceneOptions& o)
   const double x = std::abs(item.centroid[0]), y = std::abs(item.centroid[1]), r = item.radius_xy;
   if (o.background == Background::Bowl)
     return std::hypot(x, y) + r <= o.size / 2;
-  return std::max(x, y) + r <= o.size / 2;
+  const auto half = halfEdges(o);
+  return x + r <= half[0] && y + r <= half[1];
 }
 
 double
@@ -63,11 +64,12 @@ placeApart(std::vector<PlacementItem>& items, std::size_t i, const SceneOptions&
            CounterRandom& random)
 {
   auto& item = items[i];
-  const double reach = o.size / 2 - item.radius_xy;
-  if (reach < 0)
+  const auto half = halfEdges(o);
+  const double reach_x = half[0] - item.radius_xy, reach_y = half[1] - item.radius_xy;
+  if (reach_x < 0 || reach_y < 0)
     return false;
   for (int k = 0; k < kTriesPerItem; ++k) {
-    const double x = random.uniform(-reach, reach), y = random.uniform(-reach, reach);
+    const double x = random.uniform(-reach_x, reach_x), y = random.uniform(-reach_y, reach_y);
     translate(item, {x - item.centroid[0], y - item.centroid[1], 0});
     const bool free = std::all_of(
         items.begin(), items.begin() + static_cast<std::ptrdiff_t>(i),
@@ -183,8 +185,9 @@ placePile(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRando
 bool
 placePairs(std::vector<PlacementItem>& items, const SceneOptions& o, CounterRandom& random)
 {
+  const auto half = halfEdges(o);
   for (auto& item : items) {
-    double x = random.uniform(-o.size / 2, o.size / 2), y = random.uniform(-o.size / 2, o.size / 2);
+    double x = random.uniform(-half[0], half[0]), y = random.uniform(-half[1], half[1]);
     if (&item != &items.front()) {
       const double way = o.distance_factor * std::min(item.radius, items.front().radius);
       const double angle = random.uniform(0, 2 * M_PI);

@@ -60,6 +60,27 @@ check(const ViewOptions& o)
     throw std::invalid_argument("sensorPoses: the distance must be positive and finite");
   if (steep(o.elevation) || steep(o.second_elevation))
     throw std::invalid_argument("sensorPoses: elevations must lie between -90 and 90 degrees");
+  if (!(o.path >= 0) || !std::isfinite(o.path))
+    throw std::invalid_argument("sensorPoses: the path must be finite and not negative");
+  if (o.stops < 2 || o.stops > 10000)
+    throw std::invalid_argument("sensorPoses: stops must be in [2, 10000]");
+}
+
+/** \brief From one end to the other with the sensor on the side of -y, and back on that of +y. */
+std::vector<SensorPose>
+passing(const ViewOptions& o)
+{
+  std::vector<SensorPose> poses;
+  const std::size_t there = (o.stops + 1) / 2;
+  for (std::size_t k = 0; k < o.stops; ++k) {
+    const bool is_back = k >= there;
+    const std::size_t n = is_back ? o.stops - there : there, i = is_back ? k - there : k;
+    const double share = n > 1 ? static_cast<double>(i) / static_cast<double>(n - 1) : 0.5;
+    ViewOptions here = o;
+    here.target[0] += o.path * (is_back ? 0.5 - share : share - 0.5);
+    poses.push_back(poseAt(here, is_back ? 90 : -90, o.elevation));
+  }
+  return poses;
 }
 
 } // namespace
@@ -121,6 +142,8 @@ sensorPoses(const ViewOptions& o)
 {
   check(o);
   constexpr std::size_t kAll = 24;
+  if (o.views == ViewSet::Pass)
+    return passing(o);
   std::vector<SensorPose> poses;
   if (o.views == ViewSet::All24) {
     for (std::size_t k = 0; k < kAll; ++k)

@@ -1,29 +1,27 @@
 #include "pcl_surflet/online_scene_interpreter.h"
 
-#include "pcl_surflet/conversions.h"
-
 #include <pcl/common/transforms.h>
 
-#include <numeric>
 #include <stdexcept>
+#include <string>
 
 namespace pcl_surflet {
 namespace {
 
-/** \brief Turns normals that look away from the sensor: what is seen is seen from outside. */
-void
-orient(SurfletSet& set, const Eigen::Vector3f& sensor)
+/** \brief A point's surflet with the normal turned to the sensor: what is seen is seen from
+ * outside. Without usable normal it still is the end of a ray. */
+Surflet
+seenFrom(const Eigen::Vector3f& sensor, const Eigen::Vector3f& point, Eigen::Vector3f normal)
 {
-  if (!sensor.allFinite())
-    throw std::invalid_argument("pcl_surflet: the sensor's origin must be finite");
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    const Eigen::Vector3f to_sensor = sensor - Eigen::Vector3f(set.x[i], set.y[i], set.z[i]);
-    if (to_sensor.dot(Eigen::Vector3f(set.nx[i], set.ny[i], set.nz[i])) >= 0)
-      continue;
-    set.nx[i] = -set.nx[i];
-    set.ny[i] = -set.ny[i];
-    set.nz[i] = -set.nz[i];
-  }
+  if ((sensor - point).dot(normal) < 0)
+    normal = -normal;
+  return {point.x(), point.y(), point.z(), normal.x(), normal.y(), normal.z()};
+}
+
+std::array<double, 3>
+placeOf(const Eigen::Vector3f& sensor)
+{
+  return {sensor.x(), sensor.y(), sensor.z()};
 }
 
 } // namespace
@@ -33,24 +31,27 @@ OnlineSceneInterpreter::addScan(const pcl::PointCloud<pcl::PointXYZ>& cloud,
                                 const pcl::PointCloud<pcl::Normal>& normals,
                                 const Eigen::Vector3f& sensor_origin)
 {
-  pcl::Indices all(cloud.size());
-  std::iota(all.begin(), all.end(), 0);
-  SurfletSet surflets = toSurflets(cloud, normals, all).surflets;
-  orient(surflets, sensor_origin);
-  OnlineScan scan = addScan(surflets);
-  scan.rejected += cloud.size() - surflets.size();
-  return scan;
+  if (normals.size() != cloud.size())
+    throw std::invalid_argument("pcl_surflet: there must be one normal for each point, there are " +
+                                std::to_string(normals.size()) + " for " +
+                                std::to_string(cloud.size()));
+  SurfletSet surflets;
+  surflets.reserve(cloud.size());
+  for (std::size_t i = 0; i < cloud.size(); ++i)
+    surflets.push_back(
+        seenFrom(sensor_origin, cloud[i].getVector3fMap(), normals[i].getNormalVector3fMap()));
+  return addScan(surflets, placeOf(sensor_origin));
 }
 
 OnlineScan
 OnlineSceneInterpreter::addScan(const pcl::PointCloud<pcl::PointNormal>& cloud,
                                 const Eigen::Vector3f& sensor_origin)
 {
-  SurfletSet surflets = toSurflets(cloud).surflets;
-  orient(surflets, sensor_origin);
-  OnlineScan scan = addScan(surflets);
-  scan.rejected += cloud.size() - surflets.size();
-  return scan;
+  SurfletSet surflets;
+  surflets.reserve(cloud.size());
+  for (const auto& p : cloud)
+    surflets.push_back(seenFrom(sensor_origin, p.getVector3fMap(), p.getNormalVector3fMap()));
+  return addScan(surflets, placeOf(sensor_origin));
 }
 
 OnlineScan

@@ -5,10 +5,10 @@ using namespace pcl_surflet::test;
 
 namespace {
 
-const char* const kApps[] = {"train",         "classify",       "feature",        "info",
-                             "reduce",        "generate",       "generate_shape", "evaluate",
-                             "experiment",    "interpret",      "view",           "search",
-                             "evaluate_pose", "evaluate_peers", "replay"};
+const char* const kApps[] = {
+    "train",          "classify",       "feature",         "info",      "reduce", "generate",
+    "generate_shape", "evaluate",       "experiment",      "interpret", "view",   "search",
+    "evaluate_pose",  "evaluate_peers", "evaluate_online", "replay"};
 
 struct WrongLine {
   const char* app;
@@ -70,7 +70,11 @@ TEST(Usage, HelpNamesEveryOption)
         "-threads", "-k", "-csv"}},
       {"reduce", {"-leaf", "-min_normal", "-csv"}},
       {"replay",
-       {"-database", "-background", "-empty", "-leaf", "-out", "-csv", "-seed", "-threads"}},
+       {"-database", "-background", "-empty", "-leaf", "-behind", "-out", "-csv", "-seed",
+        "-threads"}},
+      {"evaluate_online",
+       {"-scenes", "-lengths", "-per_length", "-stride", "-leaf", "-stale", "-behind",
+        "-batch_every", "-take", "-csv", "-seed", "-threads"}},
       {"evaluate",
        {"-method",   "-treatment", "-scenes",     "-bins",    "-leaf",        "-pairs",
         "-lambda_h", "-lambda_o",  "-lambda_c",   "-min_fit", "-on_surfaces", "-present",

@@ -368,6 +368,31 @@ TEST(DepthSensor, AntipodalViewsSeeComplementaryHalves)
   }
 }
 
+TEST(DepthSensor, APassGoesThereAndBackOnTheOtherSide)
+{
+  ViewOptions views;
+  views.views = ViewSet::Pass;
+  views.target = {1, 2, 3};
+  views.distance = 5;
+  views.elevation = 0;
+  views.path = 4;
+  views.stops = 6;
+  const auto poses = sensorPoses(views);
+  ASSERT_EQ(poses.size(), 6u);
+  const double x[] = {-1, 1, 3, 3, 1, -1};
+  for (std::size_t k = 0; k < 6; ++k) {
+    EXPECT_NEAR(poses[k].target[0], x[k], 1e-12);
+    EXPECT_NEAR(poses[k].position[0], x[k], 1e-12);
+    EXPECT_NEAR(poses[k].position[1], k < 3 ? -3 : 7, 1e-12);
+    EXPECT_NEAR(poses[k].position[2], 3, 1e-12);
+  }
+  views.stops = 1;
+  EXPECT_THROW(sensorPoses(views), std::invalid_argument);
+  views.stops = 2;
+  views.path = -1;
+  EXPECT_THROW(sensorPoses(views), std::invalid_argument);
+}
+
 TEST(DepthSensor, NoiseHasItsDeviationAndGrowsWithDepth)
 {
   DepthSensor sensor = small();

@@ -131,6 +131,28 @@ TEST(SceneGenerator, PosturesTiltTheUprightAxis)
   EXPECT_EQ(seen.size(), 3u);
 }
 
+TEST(SceneGenerator, ALongTableIsAsWideAsItIsTold)
+{
+  for (const auto background : {Background::Plane, Background::Box}) {
+    auto options = sparse(4);
+    options.background = background;
+    options.size = 3;
+    options.width = 0.5;
+    const auto scene = generateScene({household()[0], household()[2]}, {}, options);
+    const auto& s = scene.surflets;
+    const auto [left, right] = std::minmax_element(s.x.begin(), s.x.end());
+    const auto [front, rear] = std::minmax_element(s.y.begin(), s.y.end());
+    EXPECT_NEAR(*right - *left, 3, 0.02);
+    EXPECT_NEAR(*rear - *front, 0.5, 0.01);
+    const double floor = std::count_if(s.nz.begin(), s.nz.end(), [](float n) { return n == 1; });
+    EXPECT_NEAR(floor / (options.density * 1.5), 1, background == Background::Plane ? 0.02 : 0.05);
+    EXPECT_EQ(backgroundBodies(options).size(), 1u);
+  }
+  auto narrow = sparse(4);
+  narrow.width = 0.01;
+  EXPECT_THROW(generateScene(household(), {}, narrow), std::invalid_argument);
+}
+
 TEST(SceneGenerator, PairsStandAtTheirDistanceEvenIfTheyIntersect) // Fig. 5.5
 {
   const std::vector<SceneItem> pair = {household()[0], household()[2]};

@@ -1,4 +1,6 @@
 // Interpretation by explanation: its parts on hand-made cases, and as a whole.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/instruction_set.h"
 #include "pcl_surflet/core/scene_generator.h"
@@ -15,6 +17,8 @@
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::interpretation;
+using pcl_surflet::test::shifted;
+using pcl_surflet::test::together;
 
 namespace {
 
@@ -128,20 +132,11 @@ left(const SurfletSet& cells, const Indices& some)
       std::count_if(some.begin(), some.end(), [&](std::uint32_t i) { return cells.x[i] < 0; }));
 }
 
-SurfletSet
-shifted(SurfletSet set, float x)
+/** \brief Support of a pair, as loops over pairs look it up. */
+float
+supportOfPair(const SceneModel& m, std::uint32_t column, float delta)
 {
-  for (float& v : set.x)
-    v += x;
-  return set;
-}
-
-SurfletSet
-both(SurfletSet a, const SurfletSet& b)
-{
-  for (std::size_t i = 0; i < b.size(); ++i)
-    a.push_back(b[i]);
-  return a;
+  return m.support[m.supportIndex(column, delta)];
 }
 
 } // namespace
@@ -174,11 +169,11 @@ TEST(Support, ATableIsTheLimitedLogarithmOfTheRatio)
       const float delta = static_cast<float>((k + 0.5) / 7 * delta_max * 2.0);
       const double expected =
           std::clamp(std::log(std::max(h, 1e-5) / (chance[angle] * (2 * k + 1) / 49.0)), -3.0, 3.0);
-      EXPECT_NEAR(m.supportOfPair(angle, delta), expected, 0.02) << angle << " " << k;
+      EXPECT_NEAR(supportOfPair(m, angle, delta), expected, 0.02) << angle << " " << k;
     }
-  EXPECT_EQ(m.supportOfPair(5, static_cast<float>(delta_max * 2.01)), -kMostSupport) << "too long";
-  EXPECT_EQ(m.supportOfPair(343, 0.01f), 0) << "no feature";
-  EXPECT_EQ(m.supportOfPair(343, 1e30f), 0) << "no feature";
+  EXPECT_EQ(supportOfPair(m, 5, static_cast<float>(delta_max * 2.01)), -kMostSupport) << "too long";
+  EXPECT_EQ(supportOfPair(m, 343, 0.01f), 0) << "no feature";
+  EXPECT_EQ(supportOfPair(m, 343, 1e30f), 0) << "no feature";
 }
 
 TEST(Support, SamplesAreEvenAndTheirPairsInOrder)
@@ -207,7 +202,7 @@ TEST(Support, WhatSupportsEachOtherIsOneOfTwoTouchingThings)
   auto torus = things()[2].sample(30000, 4), die = things()[3].sample(15000, 5);
   torus = shifted(torus, -*std::max_element(torus.x.begin(), torus.x.end()));
   die = shifted(die, -*std::min_element(die.x.begin(), die.x.end()));
-  World w(reduced(both(torus, die)), models());
+  World w(reduced(together(torus, die)), models());
   const auto middle = centroidOf(torus, [&] {
     Indices all(torus.size());
     std::iota(all.begin(), all.end(), 0u);
@@ -231,8 +226,8 @@ TEST(Support, TheSupportOfACellIsTheMeanOverItsProbes)
   for (const auto i : core) {
     PairFeatures f;
     featuresOfPairs(w.source, w.models.resolution, {42}, {i}, f);
-    sum += w.models.all[0].supportOfPair(std::min(f.angular_bin[0], 343u),
-                                         std::sqrt(f.delta_squared[0]));
+    sum += supportOfPair(w.models.all[0], std::min(f.angular_bin[0], 343u),
+                         std::sqrt(f.delta_squared[0]));
   }
   ASSERT_EQ(out.size(), sum > 0 ? 1u : 0u);
   if (!out.empty()) {

@@ -1,4 +1,6 @@
 // Online interpretation: what stays, what changes and what is asked for while a scene grows.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/scene_generator.h"
 #include "pcl_surflet/recognition/online_interpretation.h"
@@ -6,12 +8,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
+#include <sstream>
 #include <stdexcept>
 
 using namespace pcl_surflet;
+using namespace pcl_surflet::test;
 
 namespace {
 
@@ -44,18 +50,23 @@ models()
 SurfletSet
 thingAt(std::size_t thing, float x, std::uint64_t seed = 5)
 {
-  SurfletSet set = things()[thing].sample(20000, seed);
-  for (float& v : set.x)
-    v += x;
-  return set;
+  return shifted(things()[thing].sample(20000, seed), x);
 }
 
+constexpr std::array<double, 3> kSensor{0, -2, 0};
+
+/** \brief Ends of rays on a wall at y = 1, from kSensor past (\p x, 0). They have no normals, so
+ * that no cells come from them. */
 SurfletSet
-together(SurfletSet a, const SurfletSet& b)
+wallSeenThrough(float x)
 {
-  for (std::size_t i = 0; i < b.size(); ++i)
-    a.push_back(b[i]);
-  return a;
+  constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+  SurfletSet wall;
+  for (int i = -60; i <= 60; ++i)
+    for (int k = -120; k <= 120; ++k)
+      wall.push_back({1.5F * x + 0.005F * static_cast<float>(i), 1, 0.005F * static_cast<float>(k),
+                      nan, nan, nan});
+  return wall;
 }
 
 OnlineParameters
@@ -100,9 +111,9 @@ TEST(OnlineInterpretation, IdsOutliveAnotherLookAtTheSame)
   const SurfletSet all = thingAt(0, 0);
   SurfletSet most, rest;
   for (std::size_t i = 0; i < all.size(); ++i)
-    (i % 10 == 0 ? rest : most).push_back(all[i]);
+    (i % 4 == 0 ? rest : most).push_back(all[i]);
   for (float& z : rest.z) // moves the means
-    z += 0.003F;
+    z += 0.006F;
   online.addScan(most);
   ASSERT_NE(find(online, "bottle"), nullptr);
   const auto id = find(online, "bottle")->id;
@@ -154,20 +165,186 @@ TEST(OnlineInterpretation, ThreadsDoNotMatter)
   }
 }
 
-TEST(OnlineInterpretation, AHalfSeenObjectAttractsToItsOtherSide)
+/** \brief Coverage of the bottle, 0 if it is not named. */
+double
+coverageOfBottle(const OnlineInterpretation& online)
 {
-  const SurfletSet whole = thingAt(0, 0);
-  SurfletSet half; // as seen from +x
-  for (std::size_t i = 0; i < whole.size(); ++i)
-    if (whole.nx[i] > 0.2F)
-      half.push_back(whole[i]);
-  OnlineInterpretation online(models(), quick());
-  online.addScan(half);
-  ASSERT_EQ(online.attractors().size(), 1U); // named or not
-  EXPECT_LT(online.attractors()[0].view_from[0], -0.9);
-  online.addScan(whole);
-  EXPECT_TRUE(online.attractors().empty());
+  const auto* d = find(online, "bottle");
+  return d == nullptr ? 0 : d->coverage;
+}
+
+TEST(OnlineInterpretation, ALookFromWhereAnAttractorSaysTellsMore)
+{
+  for (const double angle : {0.0, 1.0, 2.5, 4.0}) {
+    const double x = std::cos(angle), y = std::sin(angle);
+    const SurfletSet first = facing(thingAt(0, 0), x, y);
+    OnlineInterpretation follows(models(), quick()), stays(models(), quick());
+    follows.addScan(first);
+    stays.addScan(first);
+    ASSERT_EQ(follows.attractors().size(), 1U) << angle; // named or not
+    const auto& from = follows.attractors()[0].view_from;
+    EXPECT_LT(from[0] * x + from[1] * y, -0.9) << angle;
+
+    follows.addScan(facing(thingAt(0, 0, 6), from[0], from[1]));
+    stays.addScan(facing(thingAt(0, 0, 6), x, y));
+    EXPECT_GT(coverageOfBottle(follows), coverageOfBottle(stays) + 0.25) << angle;
+    EXPECT_TRUE(follows.attractors().empty()) << angle;
+    ASSERT_EQ(follows.distractors().size(), 1U) << angle;
+    EXPECT_EQ(follows.distractors()[0].id, find(follows, "bottle")->id);
+    EXPECT_EQ(stays.attractors().size(), 1U) << angle;
+  }
+}
+
+TEST(OnlineInterpretation, WhatNothingExplainsAttractsUntilItIsTakenAway)
+{
+  ModelDatabase only_torus;
+  only_torus.add(models()[1]);
+  OnlineInterpretation online(only_torus, quick());
+  online.addScan(thingAt(0, 0));
+  ASSERT_EQ(online.attractors().size(), 1U);
+  EXPECT_EQ(online.attractors()[0].id, 0U);
+  EXPECT_NEAR(online.attractors()[0].centre[0], 0, 0.01);
+  online.addScan(thingAt(1, kFar));
+  EXPECT_EQ(online.attractors().size(), 1U) << "far away, nothing changed";
   EXPECT_EQ(online.distractors().size(), 1U);
+  online.addScan(wallSeenThrough(0), kSensor);
+  EXPECT_TRUE(online.attractors().empty());
+}
+
+TEST(OnlineInterpretation, WhatIsTakenAwayEnds)
+{
+  OnlineInterpretation online(models(), quick());
+  online.addScan(together(thingAt(0, 0), thingAt(1, kFar)), kSensor);
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  ASSERT_NE(find(online, "torus"), nullptr);
+  const auto bottle = find(online, "bottle")->id, torus = find(online, "torus")->id;
+  const auto scan = online.addScan(wallSeenThrough(0), kSensor);
+  EXPECT_GT(scan.vanished_cells, 1000U);
+  EXPECT_EQ(find(online, "bottle"), nullptr);
+  ASSERT_NE(find(online, "torus"), nullptr);
+  EXPECT_EQ(find(online, "torus")->id, torus);
+  EXPECT_EQ(find(online, "torus")->state, OnlineState::Kept);
+  EXPECT_EQ(online.detections().back().id, bottle);
+  EXPECT_EQ(online.detections().back().state, OnlineState::Vanished);
+  online.addScan({});
+  EXPECT_EQ(online.detections().size(), 1U) << "told once";
+}
+
+TEST(OnlineInterpretation, NobodyTakesAwayWhatHidesTheWallOrIsHidden)
+{
+  OnlineParameters never = quick();
+  never.behind = 0;
+  OnlineInterpretation online(models(), quick()), blind(models(), quick()), off(models(), never);
+  for (auto* o : {&online, &blind, &off})
+    o->addScan(thingAt(0, 0));
+  EXPECT_EQ(blind.addScan(wallSeenThrough(0)).vanished_cells, 0U) << "from nowhere";
+  EXPECT_EQ(off.addScan(wallSeenThrough(0), kSensor).vanished_cells, 0U);
+  EXPECT_EQ(online.addScan(wallSeenThrough(0), {0, 3, 0}).vanished_cells, 0U) << "hidden by it";
+  EXPECT_EQ(online.addScan(wallSeenThrough(1), kSensor).vanished_cells, 0U) << "beside it";
+  EXPECT_NE(find(online, "bottle"), nullptr);
+}
+
+TEST(OnlineInterpretation, WhatIsMovedGetsAnotherId)
+{
+  OnlineInterpretation online(models(), quick());
+  online.addScan(thingAt(0, 0), kSensor);
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  const auto id = find(online, "bottle")->id;
+  online.addScan(together(wallSeenThrough(0), thingAt(0, 0.5F)), kSensor);
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  EXPECT_NE(find(online, "bottle")->id, id);
+  EXPECT_NEAR(find(online, "bottle")->centroid[0], 0.5, 0.01);
+  ASSERT_EQ(online.detections().size(), 2U);
+  EXPECT_EQ(online.detections()[1].id, id);
+  EXPECT_EQ(online.detections()[1].state, OnlineState::Vanished);
+}
+
+TEST(OnlineInterpretation, ASureDetectionWaitsUntilEnoughHasChanged)
+{
+  const SurfletSet all = thingAt(0, 0);
+  const auto lower = [&](float z, bool below) {
+    SurfletSet part;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if ((all.z[i] < z) == below)
+        part.push_back(all[i]);
+    return part;
+  };
+  const float top = *std::max_element(all.z.begin(), all.z.end());
+  const float bottom = *std::min_element(all.z.begin(), all.z.end());
+  const float cut = bottom + 0.93F * (top - bottom); // a few of a hundred cells are above
+  OnlineParameters eager = quick();
+  eager.stale = 0;
+  OnlineInterpretation patient(models(), quick()), impatient(models(), eager);
+  for (auto* online : {&patient, &impatient}) {
+    online->addScan(lower(cut, true));
+    ASSERT_EQ(online->distractors().size(), 1U) << "sure";
+  }
+  const auto cells = find(patient, "bottle")->cells.size();
+  const auto kept = patient.addScan(lower(cut, false));
+  const auto sought = impatient.addScan(lower(cut, false));
+  ASSERT_GT(kept.changed_cells, 0U);
+  EXPECT_EQ(kept.interpreted_cells, 0U);
+  EXPECT_EQ(kept.kept, 1U);
+  EXPECT_EQ(find(patient, "bottle")->cells.size(), cells);
+  EXPECT_GT(sought.interpreted_cells, cells);
+  EXPECT_EQ(sought.sought, 1U);
+  EXPECT_GT(find(impatient, "bottle")->cells.size(), cells);
+  // More of it, until a tenth has changed in all: then the rest is found as well.
+  SurfletSet raised = lower(cut - 0.4F * (top - bottom), false);
+  for (float& v : raised.z)
+    v += 0.006F;
+  EXPECT_GT(patient.addScan(raised).interpreted_cells, cells);
+}
+
+/** \brief What users see, as text that differs if a bit does. */
+std::string
+stateOf(const OnlineInterpretation& online)
+{
+  std::ostringstream text;
+  text << std::hexfloat;
+  const SurfletSet& c = online.cells();
+  for (std::size_t i = 0; i < c.size(); ++i)
+    text << c.x[i] << c.y[i] << c.z[i] << c.nx[i] << c.ny[i] << c.nz[i] << '\n';
+  for (const auto& d : online.detections()) {
+    text << d.id << ' ' << d.label << static_cast<int>(d.state) << d.fit << d.coverage;
+    for (const auto i : d.cells)
+      text << ' ' << i;
+  }
+  for (const auto& a : online.attractors())
+    text << 'a' << a.id << a.centre[0] << a.radius;
+  for (const auto& d : online.distractors())
+    text << 'd' << d.id << d.centre[0] << d.radius;
+  return text.str();
+}
+
+TEST(OnlineInterpretation, AScanThatThrowsOrIsCancelledNeverWas)
+{
+  enum class Does { Work, Throw, Cancel } does = Does::Work;
+  OnlineParameters p = quick();
+  p.explanation.steps.progress = [&](double done) {
+    if (done > 0.3 && does == Does::Throw)
+      throw std::runtime_error("no more");
+    return does != Does::Cancel;
+  };
+  OnlineInterpretation online(models(), p), untroubled(models(), quick());
+  const SurfletSet first = together(thingAt(0, 0), thingAt(1, 0.5F));
+  const SurfletSet second = together(wallSeenThrough(0), thingAt(0, 0.25F));
+  for (auto* o : {&online, &untroubled})
+    o->addScan(first, kSensor);
+  const std::string before = stateOf(online);
+  does = Does::Throw;
+  EXPECT_THROW(online.addScan(second, kSensor), std::runtime_error);
+  EXPECT_EQ(stateOf(online), before);
+  does = Does::Cancel;
+  EXPECT_TRUE(online.addScan(second, kSensor).is_cancelled);
+  EXPECT_EQ(stateOf(online), before);
+  does = Does::Work;
+  for (auto* o : {&online, &untroubled})
+    EXPECT_GT(o->addScan(second, kSensor).vanished_cells, 0U);
+  EXPECT_EQ(stateOf(online), stateOf(untroubled));
+  for (auto* o : {&online, &untroubled})
+    o->addScan(first, kSensor);
+  EXPECT_EQ(stateOf(online), stateOf(untroubled));
 }
 
 TEST(OnlineInterpretation, ThinWallsKeepBothSides)
@@ -190,7 +367,9 @@ TEST(OnlineInterpretation, TheEmptySceneIsLeftOut)
   p.empty_scene = thingAt(1, kFar);
   OnlineInterpretation online(models(), p);
   const auto scan = online.addScan(together(thingAt(0, 0), thingAt(1, kFar)));
-  EXPECT_EQ(scan.background, 20000U);
+  EXPECT_GT(scan.background, 1000U);
+  EXPECT_EQ(scan.background + scan.changed_cells, scan.cells);
+  EXPECT_EQ(scan.interpreted_cells, scan.changed_cells);
   EXPECT_EQ(find(online, "torus"), nullptr);
   EXPECT_NE(find(online, "bottle"), nullptr);
 }
@@ -218,7 +397,19 @@ TEST(OnlineInterpretation, RefusesWrongParameters)
   p = quick();
   p.explanation.min_fit = 2;
   EXPECT_THROW(OnlineInterpretation(models(), p), std::invalid_argument);
+  p = quick();
+  p.stale = -1;
+  EXPECT_THROW(OnlineInterpretation(models(), p), std::invalid_argument);
+  p = quick();
+  p.behind = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(OnlineInterpretation(models(), p), std::invalid_argument);
+  p = quick();
+  p.rays = 0;
+  EXPECT_THROW(OnlineInterpretation(models(), p), std::invalid_argument);
   EXPECT_THROW(OnlineInterpretation(ModelDatabase(), quick()), DatabaseError);
+  OnlineInterpretation online(models(), quick());
+  EXPECT_THROW(online.addScan({}, {0, std::numeric_limits<double>::infinity(), 0}),
+               std::invalid_argument);
 }
 
 } // namespace

@@ -91,7 +91,8 @@ enum class ViewSet {
   One,
   Two,    ///< antipodal: from the other side, too
   Ring24, ///< every 30 degrees, two sensors at different heights [Wahl 2007, Sec. 5.5.3]
-  All24   ///< all round, also from below, evenly on a sphere
+  All24,  ///< all round, also from below, evenly on a sphere
+  Pass    ///< along the x axis and back on the other side: a sensor that moves past a large scene
 };
 
 /** \brief Places of the sensor; angles in degrees. */
@@ -101,7 +102,10 @@ struct ViewOptions {
   double distance = 1.4;                    ///< from there, > 0
   double elevation = 45;                    ///< above the horizon; the upper ring; in (-90, 90)
   double second_elevation = 25;             ///< the lower ring
-  double azimuth = 0;                       ///< of the first sensor, about the vertical
+  /** \brief Of the first sensor, about the vertical; pass: from where it stands otherwise, -y. */
+  double azimuth = 0;
+  double path = 2;        ///< pass: length of the way along x, with the target in its middle, >= 0
+  std::size_t stops = 24; ///< pass: views in all, the second half on the way back, in [2, 10000]
 };
 
 /** \brief The poses of a set of views. \throws std::invalid_argument if an option is out of range

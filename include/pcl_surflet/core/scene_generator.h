@@ -75,6 +75,7 @@ struct SceneOptions {
   double gap = 0;                            ///< along the sliding direction of a pile, >= 0
   Background background = Background::Plane; ///< what they stand on
   double size = 1.0;        ///< edge of table, corner and box; diameter of the bowl's opening; > 0
+  double width = 0;         ///< edge along y of table, corner and box, >= 0; 0: as size
   double wall_height = 0.3; ///< of corner and box, > 0
   /** \brief Surflets per squared unit, > 0. The default gives 770,000 surflets for the seven
    * objects of the dissertation (0.63 square metres) on the table. */

@@ -237,8 +237,10 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
  *
  * Regardless of where they look, what stands on a table would lose its foot.
  *
+ * \param threads 0: all; does not change the result
  * \throws std::invalid_argument if \p distance is not positive and finite */
-PCL_SURFLET_API std::vector<std::uint32_t>
-cellsAwayFrom(const SurfletSet& cells, const SurfletSet& background, double distance);
+PCL_SURFLET_API std::vector<std::uint32_t> cellsAwayFrom(const SurfletSet& cells,
+                                                         const SurfletSet& background,
+                                                         double distance, unsigned threads = 0);
 
 } // namespace pcl_surflet

@@ -1,11 +1,7 @@
 #include "progress.h"
 #include "steps.h"
 
-#include "pcl_surflet/core/linear_octree.h"
 #include "pcl_surflet/core/parallel.h"
-
-#include <cmath>
-#include <stdexcept>
 
 namespace pcl_surflet {
 namespace {
@@ -33,15 +29,6 @@ clustersOf(const SceneData& scene, std::size_t model, const Indices& selected,
   d.died_distribution = merged.size() - clusters.size();
   dropSmallClusters(parameters, clusters, d); // step 6
   return clusters;
-}
-
-/** \brief What stands on a table has its lowest cells near the table's, but they look sideways or
- * down. */
-bool
-haveLikeNormals(const SurfletSet& a, std::size_t i, const SurfletSet& b, std::size_t j)
-{
-  constexpr float kLeastCosine = 0.7f;
-  return a.nx[i] * b.nx[j] + a.ny[i] * b.ny[j] + a.nz[i] * b.nz[j] > kLeastCosine;
 }
 
 std::vector<Detection>
@@ -101,29 +88,6 @@ interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
   for (const auto& d : result.detections)
     ++diagnostics.models[d.model].detections;
   return result;
-}
-
-std::vector<std::uint32_t>
-cellsAwayFrom(const SurfletSet& cells, const SurfletSet& background, double distance)
-{
-  if (!(distance > 0) || !std::isfinite(distance))
-    throw std::invalid_argument("pcl_surflet: distance must be positive and finite");
-  LinearOctree octree;
-  octree.build(
-      {background.x.data(), background.y.data(), background.z.data(), 1, background.size()});
-  std::vector<std::uint32_t> away;
-  std::vector<PlaceRange> near;
-  for (std::uint32_t i = 0; i < cells.size(); ++i) {
-    octree.regionRanges({cells.x[i], cells.y[i], cells.z[i]}, distance, near);
-    bool is_background = false;
-    for (const auto& r : near)
-      for (std::uint32_t at = r.begin; at < r.end && !is_background; ++at)
-        is_background =
-            haveLikeNormals(cells, i, background, static_cast<std::size_t>(octree.indexAt(at)));
-    if (!is_background)
-      away.push_back(i);
-  }
-  return away;
 }
 
 } // namespace pcl_surflet

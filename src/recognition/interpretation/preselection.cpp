@@ -8,7 +8,8 @@ namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
-constexpr std::uint64_t kChunk = 1 << 15; ///< pairs drawn at a time by one thread
+constexpr std::uint64_t kChunk = 1 << 15;        ///< pairs drawn at a time by one thread
+constexpr std::size_t kSelectionBlock = 1 << 12; ///< pairs judged at a time by one thread
 
 /** \brief Drawn pairs that have a feature and are short enough, S of Eq. 5.1. */
 struct DrawnPairs {
@@ -101,54 +102,78 @@ threshold(const SceneModel& model, const PairFeatures& features, double lambda_h
   return m == 0 ? 0 : lambda_h * sum / static_cast<double>(m);
 }
 
-/** \brief Which surflets occur in selected pairs, per object. */
-class Selection {
-public:
-  Selection(const SceneData& scene, const std::vector<double>& thresholds,
-            InterpretationDiagnostics& diagnostics)
-      : models_(scene.models), thresholds_(thresholds), diagnostics_(diagnostics),
-        chosen_(scene.models.objects, std::vector<char>(scene.cells.size(), 0))
-  {
-  }
+/** \brief Pairs selected from a block of those drawn. */
+struct SelectedPairs {
+  struct Pair {
+    std::size_t object;
+    std::uint32_t first, second;
+  };
+  std::vector<Pair> pairs;
+  std::uint64_t background = 0;
+};
 
-  void
-  add(std::uint32_t first, std::uint32_t second, std::uint32_t angular_bin, float delta_squared)
-  {
+SelectedPairs
+selectFrom(const DrawnPairs& drawn, std::size_t begin, std::size_t end, const SceneModels& models,
+           const std::vector<double>& thresholds)
+{
+  SelectedPairs selected;
+  std::vector<float> values(models.all.size());
+  for (std::size_t i = begin; i < end; ++i) {
     float best_object = 0, best_background = 0;
-    values_.clear();
-    for (std::size_t k = 0; k < models_.all.size(); ++k) {
-      values_.push_back(models_.all[k].value(angular_bin, delta_squared));
-      float& best = k < models_.objects ? best_object : best_background;
-      best = std::max(best, values_.back());
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      values[k] =
+          models.all[k].value(drawn.features.angular_bin[i], drawn.features.delta_squared[i]);
+      float& best = k < models.objects ? best_object : best_background;
+      best = std::max(best, values[k]);
     }
     if (best_background > best_object) { // Eq. 5.9: most likely background
-      ++diagnostics_.background;
-      return;
+      ++selected.background;
+      continue;
     }
-    for (std::size_t k = 0; k < models_.objects; ++k)
-      if (values_[k] > 0 && values_[k] >= thresholds_[k] && values_[k] >= best_object) {
-        chosen_[k][first] = chosen_[k][second] = 1; // Eq. 5.4, 5.10, 5.11
-        ++diagnostics_.models[models_.all[k].index].pairs;
-      }
+    for (std::size_t k = 0; k < models.objects; ++k) // Eq. 5.4, 5.10, 5.11
+      if (values[k] > 0 && values[k] >= thresholds[k] && values[k] >= best_object)
+        selected.pairs.push_back({k, drawn.first[i], drawn.second[i]});
   }
+  return selected;
+}
 
-  Indices
-  surflets(std::size_t k) const
-  {
-    Indices out;
-    for (std::size_t i = 0; i < chosen_[k].size(); ++i)
-      if (chosen_[k][i])
-        out.push_back(static_cast<std::uint32_t>(i));
-    return out;
+Indices
+marked(const std::vector<char>& marks)
+{
+  Indices out;
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    if (marks[i])
+      out.push_back(static_cast<std::uint32_t>(i));
+  return out;
+}
+
+/** \brief Surflets of the selected pairs, per object. Pairs are judged in parallel; only the marks
+ * are made one after the other. */
+std::vector<Indices>
+select(const SceneData& scene, const DrawnPairs& drawn, const std::vector<double>& thresholds,
+       unsigned threads, InterpretationDiagnostics& diagnostics)
+{
+  const std::size_t n = drawn.first.size();
+  std::vector<SelectedPairs> blocks((n + kSelectionBlock - 1) / kSelectionBlock);
+  parallelFor(blocks.size(), threads, [&](std::size_t b, unsigned) {
+    const std::size_t begin = b * kSelectionBlock;
+    blocks[b] =
+        selectFrom(drawn, begin, std::min(n, begin + kSelectionBlock), scene.models, thresholds);
+  });
+  std::vector<std::vector<char>> chosen(scene.models.objects,
+                                        std::vector<char>(scene.cells.size(), 0));
+  for (const auto& block : blocks) {
+    diagnostics.background += block.background;
+    for (const auto& [object, first, second] : block.pairs) {
+      chosen[object][first] = chosen[object][second] = 1;
+      ++diagnostics.models[scene.models.all[object].index].pairs;
+    }
   }
-
-private:
-  const SceneModels& models_;
-  const std::vector<double>& thresholds_;
-  InterpretationDiagnostics& diagnostics_;
-  std::vector<std::vector<char>> chosen_;
-  std::vector<float> values_;
-};
+  std::vector<Indices> surflets(chosen.size());
+  parallelFor(chosen.size(), threads,
+              [&](std::size_t k, unsigned) { surflets[k] = marked(chosen[k]); });
+  return surflets;
+}
 
 } // namespace
 
@@ -165,16 +190,11 @@ preselect(const SceneData& scene, const DissertationParameters& parameters,
   parallelFor(objects, parameters.threads, [&](std::size_t k, unsigned) {
     thresholds[k] = threshold(scene.models.all[k], pairs.features, parameters.lambda_h);
   });
-  Selection selection(scene, thresholds, diagnostics);
-  for (std::size_t i = 0; i < pairs.first.size(); ++i)
-    selection.add(pairs.first[i], pairs.second[i], pairs.features.angular_bin[i],
-                  pairs.features.delta_squared[i]);
-  std::vector<Indices> selected;
+  auto selected = select(scene, pairs, thresholds, parameters.threads, diagnostics);
   for (std::size_t k = 0; k < objects; ++k) {
-    selected.push_back(selection.surflets(k));
     auto& d = diagnostics.models[scene.models.all[k].index];
     d.threshold = thresholds[k];
-    d.surflets = selected.back().size();
+    d.surflets = selected[k].size();
   }
   return selected;
 }

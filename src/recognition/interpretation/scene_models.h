@@ -72,14 +72,9 @@ struct SceneModel {
     const std::uint32_t b = bin(angular_bin, delta_squared);
     return b == kBeyond ? least_density : density[b];
   }
-  /** \brief Support of a pair by its distance in the scene's unit scale.
-   * \param column angular bin, or angular_bins for a pair without feature */
-  float
-  supportOfPair(std::uint32_t column, float delta) const
-  {
-    return support[supportIndex(column, delta)];
-  }
-  /** \brief Without branches, so that loops over pairs become vectors. */
+  /** \brief Where \ref support has a pair: without branches, so that loops over pairs become
+   * vectors. \param column angular bin, or angular_bins for a pair without feature
+   * \param delta distance in the scene's unit scale */
   std::uint32_t
   supportIndex(std::uint32_t column, float delta) const
   {
