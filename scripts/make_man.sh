@@ -18,7 +18,7 @@ sections()
   echo '[examples]'
   awk -v want="[$1]" '
     /^#/ || /^$/ { next }
-    /^\[/ { inside = $0 == want; next }
+    /^\[/ { inside = $1 == want; next }
     !inside { next }
     /^  / { gsub(/\\/, "\\e"); gsub(/-/, "\\-"); print ".PP\n.nf\n.RS\n" substr($0, 3) "\n.RE\n.fi"; next }
     { print ".PP\n" $0 }' doc/man/examples.txt
@@ -31,13 +31,13 @@ others=()
 for program in "$programs"/pcl_surflet_*; do others+=("$(basename "$program")"); done
 faults=0
 for name in "${others[@]}"; do
-  grep -qxF "[$name]" doc/man/examples.txt || { echo "doc/man/examples.txt has nothing for $name" >&2; faults=1; }
+  what=$(sed -n "s/^\[$name\] //p" doc/man/examples.txt)
+  [ -n "$what" ] || { echo "doc/man/examples.txt has nothing for $name" >&2; faults=1; continue; }
   sections "$name" >"$scratch/sections"
-  # What it does: the first sentence of the description.
-  what=$("$programs/$name" -h | sed -n '3,/^$/p' | tr '\n' ' ' | sed -E 's/^([^.:;(]*).*/\1/; s/ +$//; s/^(.)/\l\1/')
   help2man --no-info --no-discard-stderr --help-option=-h --version-option=-version --section=1 --manual="User Commands" \
     --source="pcl_surflet" --name="$what" --include="$scratch/sections" "$programs/$name" |
-    sed -E -e '/^\.\\" DO NOT MODIFY/d' -e '/^Exit codes: /d' -e '1,/^\.TH/s/^(\.TH [^ ]+ "1") "[^"]*"/\1 ""/' >"$scratch/$name.1"
+    sed -E -e '/^\.\\" DO NOT MODIFY/d' -e '/^Exit codes: /d' -e '1,/^\.TH/s/^(\.TH [^ ]+ "1") "[^"]*"/\1 ""/' \
+      -e 's/(exclusion_vfh,) (opencv, opencv_repaired, )?shot/\1 shot, with OpenCV opencv and opencv_repaired/' >"$scratch/$name.1"
   if ! $check; then
     cp "$scratch/$name.1" "doc/man/$name.1"
   elif ! diff -u "doc/man/$name.1" "$scratch/$name.1" >&2; then
