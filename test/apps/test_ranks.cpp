@@ -85,6 +85,15 @@ protected:
     return files;
   }
 
+  /** \brief A training that takes a few tenths of a second a file. */
+  Words
+  longTraining(const std::string& database, int files)
+  {
+    writeFile(path("bank.txt"), "noise 1\nnoise 2\nnoise 4\n");
+    return Words{"-database", path(database), "-bank", path("bank.txt"), "-threads", "1"} +
+           copies("ball.pcd", files);
+  }
+
   Words
   filesBeside(const std::string& name) const
   {
@@ -208,11 +217,9 @@ TEST_F(RanksTest, ARankThatDiesLeavesTheOldDatabase)
 {
   makeDatabase();
   const std::string before = readFile(path("db.pcd"));
-  const Words files = copies("ball.pcd", 60);
+  const Words line = longTraining("db.pcd", 200);
   for (const int victim : {1, 0}) {
-    Running training(
-        launched(2, "train",
-                 Words{"-database", path("db.pcd"), "-bank", "default", "-threads", "1"} + files));
+    Running training(launched(2, "train", line));
     waitUntilSaid(training, "added 'copy0'");
     const pid_t process = processOf(victim, training.pid());
     ASSERT_GT(process, 0) << training.err();
@@ -279,9 +286,7 @@ TEST_F(RanksTest, ADirectoryThatIsGoneIsSaidOnceAndTheOldDatabaseStays)
   fs::create_directory(path("here"));
   fs::rename(path("db.pcd"), path("here/db.pcd"));
   const std::string before = readFile(path("here/db.pcd"));
-  Running training(launched(2, "train",
-                            Words{"-database", path("here/db.pcd"), "-bank", "default"} +
-                                copies("ball.pcd", 4)));
+  Running training(launched(2, "train", longTraining("here/db.pcd", 10)));
   waitUntilSaid(training, "added 'copy0'");
   fs::rename(path("here"), path("there"));
   const AppRun r = training.wait();
