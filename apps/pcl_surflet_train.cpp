@@ -1,6 +1,7 @@
 // Trains models from files and keeps them in a database.
 
 #include "app_common.h"
+#include "file_lock.h"
 
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/database_file.h"
@@ -173,6 +174,7 @@ ModelDatabase
 openDatabase(const Options& o)
 {
   checkDirectory(o.database);
+  lockUntilExit(o.database); // two trainings at once would lose models
   if (!std::filesystem::exists(std::filesystem::symlink_status(o.database)))
     return {};
   ModelDatabase database = readDatabase(o.database);
