@@ -70,6 +70,7 @@ std::vector<std::string>
 labelsOf(const std::vector<SceneItem>& items)
 {
   std::vector<std::string> labels;
+  labels.reserve(items.size());
   for (const auto& item : items)
     labels.push_back(item.label);
   return labels;

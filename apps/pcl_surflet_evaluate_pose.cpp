@@ -64,7 +64,7 @@ sceneOf(const std::vector<SceneItem>& objects, const Options& o, std::uint64_t k
 {
   SceneOptions options = o.scene;
   options.seed = o.seed + k;
-  const Scene complete = generateScene(objects, {}, options);
+  Scene complete = generateScene(objects, {}, options);
   if (!o.sensed)
     return complete;
   return sensedScene(complete,

@@ -64,6 +64,7 @@ std::vector<SceneItem>
 itemsOf(const std::vector<std::string>& texts)
 {
   std::vector<SceneItem> items;
+  items.reserve(texts.size());
   for (const auto& text : texts)
     items.push_back(itemOf(text));
   return items;

@@ -9,8 +9,17 @@ packages=(
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )
-# Optional and large: --with-opencv adds the peer of pcl_surflet_evaluate_peers.
-[ "${1:-}" = --with-opencv ] && packages+=(libopencv-contrib-dev)
+# Optional: --with-opencv adds the peer of pcl_surflet_evaluate_peers (large), --with-checks what
+# check.sh needs.
+for option in "$@"; do
+  case $option in
+    --with-opencv) packages+=(libopencv-contrib-dev) ;;
+    --with-checks)
+      packages+=(clang clang-format clang-tidy doxygen graphviz dpkg-dev fakeroot lintian help2man)
+      ;;
+    *) echo "Unknown option $option" >&2; exit 1 ;;
+  esac
+done
 
 missing=()
 for package in "${packages[@]}"; do

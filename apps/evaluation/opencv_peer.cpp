@@ -79,6 +79,7 @@ public:
       icp.registerModelToScene(model_, rows, poses);
     }
     std::vector<RigidMotion> motions;
+    motions.reserve(poses.size());
     for (const auto& pose : poses)
       motions.push_back(repaired_ ? repairedRotation(motionOf(pose->pose)) : motionOf(pose->pose));
     return motions;

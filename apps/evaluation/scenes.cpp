@@ -14,7 +14,7 @@ Scene
 seenScene(const std::vector<SceneItem>& objects, const std::vector<SceneItem>& clutter,
           const SceneOptions& options, const Sensing& sensing)
 {
-  const Scene scene = generateScene(objects, clutter, options);
+  Scene scene = generateScene(objects, clutter, options);
   if (!sensing)
     return scene;
   return sensedScene(

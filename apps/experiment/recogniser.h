@@ -2,10 +2,10 @@
  * Whatever can name the object of a cloud: what the experiments compare. */
 #pragma once
 
-#include "thread_time.h"
 #include "experiment/objects.h"
 #include "experiment/output.h"
 #include "pcl_surflet/core/surflet_set.h"
+#include "thread_time.h"
 
 #include <cstdint>
 #include <memory>

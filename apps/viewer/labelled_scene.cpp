@@ -6,6 +6,7 @@
 #include <pcl/common/point_tests.h>
 #include <pcl/conversions.h>
 
+#include <algorithm>
 #include <cstring>
 
 namespace pcl_surflet {
@@ -33,10 +34,9 @@ numbersOf(const pcl::PCLPointCloud2& cloud, std::size_t points, const std::strin
 bool
 hasField(const pcl::PCLPointCloud2& cloud, const char* name)
 {
-  for (const auto& field : cloud.fields)
-    if (field.name == name && field.datatype == pcl::PCLPointField::FLOAT32)
-      return true;
-  return false;
+  return std::any_of(cloud.fields.begin(), cloud.fields.end(), [&](const auto& field) {
+    return field.name == name && field.datatype == pcl::PCLPointField::FLOAT32;
+  });
 }
 
 } // namespace

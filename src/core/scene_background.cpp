@@ -144,6 +144,7 @@ sampleBackground(const SceneOptions& o, std::size_t n, std::uint64_t seed)
   CounterRandom random(seed);
   const auto rectangles = rectanglesOf(o);
   std::vector<double> cumulative;
+  cumulative.reserve(rectangles.size());
   for (const auto& rectangle : rectangles)
     cumulative.push_back((cumulative.empty() ? 0 : cumulative.back()) + rectangle.area());
   for (std::size_t i = 0; i < n; ++i) {

@@ -70,7 +70,7 @@ moved(const SurfletSet& set, const Pose& pose)
 }
 
 PlacementItem
-placementItem(SurfletSet upright, const Pose& posture)
+placementItem(const SurfletSet& upright, const Pose& posture)
 {
   PlacementItem item;
   item.surflets = moved(upright, posture);

@@ -34,7 +34,7 @@ struct PlacementItem {
   Vector3 centroid{0, 0, 0};
 };
 
-PlacementItem placementItem(SurfletSet upright, const Pose& posture);
+PlacementItem placementItem(const SurfletSet& upright, const Pose& posture);
 void translate(PlacementItem& item, const Vector3& by);
 
 /** \brief Height of what carries the items at (\p x, \p y). */

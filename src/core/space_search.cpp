@@ -201,6 +201,7 @@ suggestCellSize(const PointArray& points, double per_cell)
     return 0.01;
   const CubeFrame frame{{low[0], low[1], low[2]}, extent, kDepth};
   std::vector<MortonKey> keys;
+  keys.reserve(sample.size());
   for (const auto& p : sample)
     keys.push_back(MortonKey::fromCoordinates(frame.coordinates(p), kDepth));
   std::sort(keys.begin(), keys.end());

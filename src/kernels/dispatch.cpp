@@ -37,11 +37,12 @@ selected()
 AxisMap
 axisMap(int n, int stride)
 {
+  const int middle = n / 2;
   AxisMap axis{};
+  axis.borders = n - 1 - middle;
   axis.stride = static_cast<float>(stride);
-  axis.base = static_cast<float>(n / 2 * stride);
-  axis.base_negative = static_cast<float>((n - 1 - n / 2) * stride);
-  axis.borders = n - 1 - n / 2;
+  axis.base = static_cast<float>(middle * stride);
+  axis.base_negative = static_cast<float>(axis.borders * stride);
   return axis;
 }
 
@@ -49,7 +50,8 @@ axisMap(int n, int stride)
 double
 borderAbove(int k, int n)
 {
-  return 2.0 * (n / 2 + 1 + k) / n - 1;
+  const int number = n / 2 + 1 + k;
+  return 2.0 * number / n - 1;
 }
 
 /** \brief alpha: borders as -cot(angle) |cot(angle)|, which ascends over (0, pi). */

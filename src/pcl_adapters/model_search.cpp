@@ -156,6 +156,7 @@ ModelSearch::Data::ranked(const Shares& query, const std::vector<std::size_t>& c
                           std::size_t k) const
 {
   std::vector<std::pair<double, std::size_t>> scores; // of models: larger is better
+  scores.reserve(candidates.size());
   for (const auto c : candidates)
     scores.emplace_back(meanLog(members[c].log_h, query), members[c].model);
   std::sort(scores.begin(), scores.end(), [](const auto& a, const auto& b) {

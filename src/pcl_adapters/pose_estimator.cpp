@@ -48,6 +48,7 @@ loadPoseModels(const std::string& directory)
                            "object, named like it");
   std::sort(paths.begin(), paths.end());
   std::vector<PoseModel> models;
+  models.reserve(paths.size());
   for (const auto& path : paths)
     models.push_back(loadPoseModel(path));
   return models;

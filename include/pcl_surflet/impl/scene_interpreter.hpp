@@ -6,6 +6,7 @@
 
 #include <pcl/filters/impl/filter_indices.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -77,12 +78,10 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::removeBackgroundCloud(
         PointT p;
         place(p, s);
         search_->radiusSearch(p, options.distance, near, squared);
-        for (const auto i : near) {
+        return std::any_of(near.begin(), near.end(), [&](pcl::index_t i) {
           const Surflet b = cells[static_cast<std::size_t>(i)];
-          if (s.nx * b.nx + s.ny * b.ny + s.nz * b.nz >= least)
-            return true;
-        }
-        return false;
+          return s.nx * b.nx + s.ny * b.ny + s.nz * b.nz >= least;
+        });
       },
       points);
 }
