@@ -182,6 +182,7 @@ readDatabase(const std::string& path)
 void
 writeFile(const std::string& path, const std::string& content)
 {
+  refuseOverwriting(path);
   if (const auto problem = detail::replaceFile(path, content); !problem.empty())
     throw DataError("cannot write '" + path + "': " + problem +
                     "; check the directory, its permissions and the free space");

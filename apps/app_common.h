@@ -56,7 +56,8 @@ public:
   void option(const std::string& name, const std::string& value, const std::string& help,
               std::function<void(const std::string&)> take);
 
-  /** \brief Takes in the command line. After "--" everything is a file.
+  /** \brief Takes in the command line. After "--" everything is a file. refuseOverwriting() knows
+   * its words from then on.
    * \return false if help or version was asked for and has been printed. \throws UsageError */
   bool parse(int argc, char** argv);
 
@@ -126,7 +127,15 @@ std::string number(double value);
 /** \brief File name without directory and ending. */
 std::string stemOf(const std::string& path);
 
-/** \brief Replaces \p path by \p content as a whole. \throws DataError */
+/** \brief Refuses to write to \p path if several words of the command line are names of that file,
+ * so that it is read as well as written, or written twice.
+ *
+ * Names are the same file if the system says so: links and other spellings count.
+ * \throws DataError that names the file, cause and remedy */
+void refuseOverwriting(const std::string& path);
+
+/** \brief Replaces \p path by \p content as a whole. \throws DataError, also as
+ * refuseOverwriting() does */
 void writeFile(const std::string& path, const std::string& content);
 
 /** \brief Reads a database. \throws DataError that names file, cause and remedy */

@@ -1,11 +1,38 @@
 #include "app_common.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
 #include <limits>
 
 namespace pcl_surflet {
 namespace apps {
+
+namespace {
+
+/** \brief The words of the command line that may be names of files. */
+std::vector<std::string>&
+words()
+{
+  static std::vector<std::string> all;
+  return all;
+}
+
+} // namespace
+
+void
+refuseOverwriting(const std::string& path)
+{
+  const auto is_path = [&](const std::string& word) {
+    std::error_code not_there;
+    return std::filesystem::is_regular_file(word, not_there) &&
+           std::filesystem::equivalent(word, path, not_there);
+  };
+  if (std::count_if(words().begin(), words().end(), is_path) > 1)
+    throw DataError("not written: '" + path +
+                    "' is named twice, and what it holds would be lost; "
+                    "give another name for what is written");
+}
 
 CommandLine::CommandLine(std::string program, std::string arguments, std::string description)
     : program_(std::move(program)), arguments_(std::move(arguments)),
@@ -83,6 +110,7 @@ bool
 CommandLine::parse(int argc, char** argv)
 {
   const std::vector<std::string> given(argv + std::min(argc, 1), argv + argc);
+  words() = given;
   const auto end_of_options = std::find(given.begin(), given.end(), "--");
   // Whoever asks for help gets it, whatever else is wrong with the line.
   if (answer({given.begin(), end_of_options}))

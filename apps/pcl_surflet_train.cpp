@@ -1,6 +1,7 @@
 // Trains models from files and keeps them in a database.
 
 #include "app_common.h"
+#include "file_lock.h"
 #include "parallel/share_out.h"
 #include "training/options.h"
 #include "training/trained_file.h"
@@ -35,6 +36,7 @@ ModelDatabase
 openDatabase(const TrainOptions& o)
 {
   checkDirectory(o.database);
+  lockUntilExit(o.database); // two trainings at once would lose models
   if (!std::filesystem::exists(std::filesystem::symlink_status(o.database)))
     return {};
   ModelDatabase database = readDatabase(o.database);

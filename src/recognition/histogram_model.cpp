@@ -8,6 +8,9 @@ namespace {
 /** \brief Sums of single-precision shares are 1 only up to rounding. */
 constexpr double kSumTolerance = 1e-3;
 
+/** \brief What programs answer where no model fits. */
+constexpr const char* kReservedLabel = "unknown";
+
 std::string
 textProblem(const std::string& text, const char* what, bool may_be_empty)
 {
@@ -68,6 +71,8 @@ HistogramModel::problem() const
   };
   if (auto text = textProblem(label, "label", false); !text.empty())
     return in_model(text);
+  if (label == kReservedLabel)
+    return in_model("the label is reserved for what no model fits; give it another");
   if (auto text = resolution.problem(); !text.empty())
     return in_model(text);
   if (auto text = lengthProblem(*this); !text.empty())

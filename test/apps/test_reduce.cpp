@@ -1,12 +1,10 @@
 // pcl_surflet_reduce: what it makes of clouds, right and wrong.
+#include "../full_disk.h"
 #include "app_runner.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-
-#include <csignal>
-#include <sys/resource.h>
 
 using namespace pcl_surflet::test;
 
@@ -57,30 +55,6 @@ someSurflets()
           9.5f,  0.5f,  0.5f, 0, 0, 1, 9.5f,  0.5f,  0.5f, 0, 0, -1, //
           NAN,   0,     0,    0, 0, 1};
 }
-
-/** \brief While it lives, files of the programs it starts cannot grow beyond \p bytes. */
-class FullDisk {
-public:
-  explicit FullDisk(rlim_t bytes)
-  {
-    ::getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN); // programs that are started inherit it
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    ::setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk()
-  {
-    ::setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-  FullDisk(const FullDisk&) = delete;
-  FullDisk& operator=(const FullDisk&) = delete;
-
-private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
-};
 
 class Reduce : public Apps {
 protected:

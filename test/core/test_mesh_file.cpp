@@ -1,10 +1,11 @@
+#include "../full_disk.h"
+
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/core/shapes.h"
 
 #include <gtest/gtest.h>
 
 #include <clocale>
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -13,7 +14,6 @@
 #include <string>
 
 #include <fcntl.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
@@ -347,15 +347,10 @@ TEST_F(MeshFile, KeepsTheOldFileWhenWritingFails)
 {
   const TriangleMesh mesh = meshOfShape(*shapeByName("torus"), 0.01);
   std::ofstream(path("old.off")) << "old";
-  // A limit on the size of files fails in the middle of writing, as a full disk does.
-  rlimit limit{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &limit), 0);
-  const auto before = std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small = {4096, limit.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  const std::string message = saveFailure(mesh, path("old.off"));
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &limit), 0);
-  std::signal(SIGXFSZ, before);
+  const std::string message = [&] {
+    const test::FullDisk full(4096);
+    return saveFailure(mesh, path("old.off"));
+  }();
   EXPECT_CONTAINS(message, "File too large");
   EXPECT_CONTAINS(message, "free space");
   EXPECT_EQ(contentOf(path("old.off")), "old");

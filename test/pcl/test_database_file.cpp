@@ -1,3 +1,5 @@
+#include "../full_disk.h"
+
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/database_file.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
@@ -7,12 +9,10 @@
 
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <functional>
-#include <sys/resource.h>
 #include <unistd.h>
 
 using namespace pcl_surflet;
@@ -98,29 +98,6 @@ protected:
   fs::path directory_;
   std::string path_;
   ModelDatabase database_;
-};
-
-/** \brief While it lives no file of this process can grow beyond \p bytes. A real /dev/full is no
- * test object: a broken writer run as root would replace it. */
-class FullDisk {
-public:
-  explicit FullDisk(std::size_t bytes)
-  {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    handler_ = std::signal(SIGXFSZ, SIG_IGN);
-    rlimit limit = before_;
-    limit.rlim_cur = bytes;
-    setrlimit(RLIMIT_FSIZE, &limit);
-  }
-  ~FullDisk()
-  {
-    setrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, handler_);
-  }
-
-private:
-  rlimit before_{};
-  void (*handler_)(int) = nullptr;
 };
 
 void
@@ -294,7 +271,7 @@ TEST_F(DatabaseFile, WritingIsAtomicAndFailuresAreTold)
   EXPECT_THROW(saveDatabase(database_, (directory_ / "no" / "db.pcd").string()), DatabaseFileError);
   EXPECT_THROW(saveDatabase(database_, directory_.string()), DatabaseFileError);
   {
-    const FullDisk full(content().size() / 2);
+    const test::FullDisk full(content().size() / 2);
     EXPECT_THROW(saveDatabase(database_, path_), DatabaseFileError);
   }
   EXPECT_EQ(content(), before);

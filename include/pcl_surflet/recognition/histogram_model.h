@@ -42,9 +42,9 @@ struct PCL_SURFLET_API HistogramModel {
   double surface_area = 0;            ///< 0 if unknown (trained from points)
   std::vector<ModelMember> members;   ///< at least one; the first is the complete object's
 
-  /** \brief Empty if the model is usable, else what is wrong: checks label, resolution, lengths
-   * (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of every member size,
-   * values and sum. */
+  /** \brief Empty if the model is usable, else what is wrong: checks label (not "unknown"),
+   * resolution, lengths (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of
+   * every member size, values and sum. */
   std::string problem() const;
 };
 

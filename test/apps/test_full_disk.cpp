@@ -1,0 +1,177 @@
+// Every file that a program writes, where it cannot be written: what was there stays, nothing else
+// is left behind, and the message names the file.
+#include "../full_disk.h"
+#include "app_runner.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace pcl_surflet::test;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/** \brief Less than any output, more than the messages. */
+constexpr rlim_t kSmall = 400;
+
+class FullDisks : public Apps {
+protected:
+  std::size_t
+  files() const
+  {
+    return static_cast<std::size_t>(
+        std::distance(fs::recursive_directory_iterator(directory_), {}));
+  }
+
+  /** \brief Runs the program on a full disk, and where a directory has the name of the output. */
+  void
+  expectRefused(const std::string& app, const std::vector<std::string>& arguments,
+                const std::string& output)
+  {
+    fs::create_directories(fs::path(output).parent_path());
+    writeFile(output, "kept");
+    const std::size_t before = files();
+    const AppRun r = [&] {
+      const FullDisk full(kSmall);
+      return run(app, arguments);
+    }();
+    EXPECT_TRUE(ended(r, 2, {output, "space"}));
+    EXPECT_EQ(readFile(output), "kept") << output;
+    EXPECT_EQ(files(), before) << output << ": something was left behind";
+    fs::remove(output);
+    fs::create_directory(output);
+    EXPECT_TRUE(ended(run(app, arguments), 2, {output, "directory"}));
+    fs::remove(output);
+  }
+};
+
+class FullDiskScenes : public FullDisks {
+protected:
+  void
+  SetUp() override
+  {
+    Apps::SetUp();
+    ASSERT_EQ(run("generate_shape", {"torus", path("torus.pcd"), "-points", "20000"}).code, 0);
+    ASSERT_EQ(run("train", {"-database", path("db.pcd"), "-bins", "7,7,7,7", "-pairs", "1000000",
+                            path("torus.pcd")})
+                  .code,
+              0);
+    ASSERT_EQ(run("generate", {"-out", path("s.pcd"), "-density", "60000", "torus"}).code, 0);
+  }
+};
+
+} // namespace
+
+TEST_F(FullDisks, ShapesDescriptorsAndReducedClouds)
+{
+  makeShapes();
+  const std::string in = path("ball.pcd");
+  for (const std::string name : {"new.pcd", "new.ply", "new.off"})
+    expectRefused("generate_shape", {"cone", path(name)}, path(name));
+  expectRefused("feature", {in, path("new.pcd")}, path("new.pcd"));
+  expectRefused("reduce", {in, path("new.pcd"), "-leaf", "0.01"}, path("new.pcd"));
+}
+
+TEST_F(FullDisks, ADatabaseKeepsItsModels)
+{
+  makeDatabase();
+  const std::string before = readFile(path("db.pcd"));
+  const std::size_t there = files();
+  const AppRun r = [&] {
+    const FullDisk full(kSmall);
+    return run("train",
+               {"-database", path("db.pcd"), "-pairs", "1000", "-label", "new", path("ball.pcd")});
+  }();
+  EXPECT_TRUE(ended(r, 2, {path("db.pcd")}));
+  EXPECT_EQ(readFile(path("db.pcd")), before);
+  EXPECT_EQ(files(), there) << "no temporary and no lock is left";
+}
+
+TEST_F(FullDisks, GeneratedScenes)
+{
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"-density", "5000", "cube"});
+    return more;
+  };
+  expectRefused("generate", with({"-out", path("s.pcd")}), path("s.pcd"));
+  // The scene comes first: the others fail for want of a place.
+  for (const std::string option : {"-poses", "-empty"}) {
+    fs::create_directories(path("taken"));
+    EXPECT_TRUE(ended(run("generate", with({"-out", path("s.pcd"), option, path("taken")})), 2,
+                      {path("taken"), "directory"}))
+        << option;
+  }
+  fs::create_directories(path("models/cube.off"));
+  EXPECT_TRUE(ended(run("generate", with({"-out", path("s.pcd"), "-models", path("models")})), 2,
+                    {path("models/cube.off"), "directory"}));
+  fs::create_directories(path("scans/scan_00.pcd"));
+  EXPECT_TRUE(ended(
+      run("generate", with({"-out", path("s.pcd"), "-views", "one", "-scans", path("scans")})), 2,
+      {path("scans/scan_00.pcd"), "directory"}));
+}
+
+TEST_F(FullDiskScenes, InterpretedScenes)
+{
+  const std::vector<std::string> arguments = {
+      "-database", path("db.pcd"), "-background", "exclude", "-planes",
+      "1",         "-leaf",        "0.008",       "-csv",    path("s.pcd")};
+  const auto with = [&](const std::string& option, const std::string& value) {
+    auto all = arguments;
+    all.insert(all.end(), {option, value});
+    return all;
+  };
+  expectRefused("interpret", with("-out", path("new.pcd")), path("new.pcd"));
+  expectRefused("interpret", with("-objects_dir", path("o")), path("o/s_1_torus.pcd"));
+  expectRefused(
+      "replay",
+      {"-database", path("db.pcd"), "-leaf", "0.008", "-out", path("new.pcd"), path("s.pcd")},
+      path("new.pcd"));
+}
+
+TEST_F(FullDisks, AnInputIsNotOverwritten)
+{
+  makeShapes();
+  fs::create_symlink(path("ball.pcd"), path("link.pcd"));
+  const std::string before = readFile(path("ball.pcd"));
+  for (const std::string out : {path("ball.pcd"), path("link.pcd"), path("./ball.pcd")}) {
+    EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), out}), 2, {out, "named twice"}));
+    EXPECT_TRUE(
+        ended(run("reduce", {path("ball.pcd"), out, "-leaf", "0.01"}), 2, {out, "named twice"}));
+    EXPECT_EQ(readFile(path("ball.pcd")), before) << out;
+  }
+  // What is there from before, but named once, is replaced.
+  EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), path("h.pcd")}), 0, {}));
+  EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), path("h.pcd")}), 0, {}));
+}
+
+TEST_F(FullDisks, NoModelMayBeCalledUnknown)
+{
+  makeShapes();
+  EXPECT_TRUE(ended(run("train", {"-database", path("new.pcd"), "-pairs", "1000", "-label",
+                                  "unknown", path("ball.pcd")}),
+                    2, {"unknown", "reserved", "another"}));
+  EXPECT_FALSE(fs::exists(path("new.pcd")));
+}
+
+TEST_F(FullDisks, TrainingsAtOnceLoseNoModel)
+{
+  makeShapes();
+  constexpr int kPrograms = 6;
+  std::vector<pid_t> children;
+  for (int i = 0; i < kPrograms; ++i) {
+    const pid_t child = ::fork();
+    if (child == 0)
+      ::_exit(run("train", {"-database", path("new.pcd"), "-pairs", "1000", "-label",
+                            "ball" + std::to_string(i), path("ball.pcd")})
+                  .code);
+    children.push_back(child);
+  }
+  for (const pid_t child : children) {
+    int status = -1;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    EXPECT_EQ(status, 0);
+  }
+  EXPECT_EQ(parseCsv(run("info", {path("new.pcd"), "-csv"}).out).size(), 1u + kPrograms);
+  EXPECT_FALSE(fs::exists(path("new.pcd.lock")));
+}

@@ -1,0 +1,192 @@
+// What ends in the middle: programs that are killed while they write, callbacks that throw, and
+// locales that write numbers otherwise.
+#include "core/atomic_file.h"
+#include "pcl_surflet/core/parallel.h"
+#include "pcl_surflet/core/shapes.h"
+#include "pcl_surflet/database_file.h"
+#include "pcl_surflet/recognition/histogram_model_trainer.h"
+#include "pcl_surflet/scene_interpreter.h"
+#include "pcl_surflet/surface_file.h"
+
+#include <pcl/io/pcd_io.h>
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <locale>
+#include <stdexcept>
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+using namespace pcl_surflet;
+
+namespace fs = std::filesystem;
+
+namespace {
+
+class Interruptions : public testing::Test {
+protected:
+  void
+  SetUp() override
+  {
+    directory_ = fs::temp_directory_path() / ("surflet_interrupted_" + std::to_string(::getpid()));
+    fs::create_directories(directory_);
+  }
+  void
+  TearDown() override
+  {
+    fs::remove_all(directory_);
+  }
+  std::string
+  path(const std::string& name) const
+  {
+    return (directory_ / name).string();
+  }
+
+  fs::path directory_;
+};
+
+std::string
+contentOf(const std::string& path)
+{
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+SurfletSet
+torus()
+{
+  return sampleShape(*shapeByName("torus"), 2000, 9);
+}
+
+ModelDatabase
+someModels()
+{
+  HistogramModelTrainer trainer;
+  trainer.setNumberOfPairs(50000);
+  ModelDatabase database;
+  database.add(trainer.train("torus", torus()));
+  return database;
+}
+
+/** \brief Numbers as in Germany: 1.234,5. */
+struct Comma : std::numpunct<char> {
+  char
+  do_decimal_point() const override
+  {
+    return ',';
+  }
+  char
+  do_thousands_sep() const override
+  {
+    return '.';
+  }
+  std::string
+  do_grouping() const override
+  {
+    return "\3";
+  }
+};
+
+class CommaLocale {
+public:
+  CommaLocale() : before_(std::locale::global(std::locale(std::locale(), new Comma))) {}
+  ~CommaLocale() { std::locale::global(before_); }
+  CommaLocale(const CommaLocale&) = delete;
+  CommaLocale& operator=(const CommaLocale&) = delete;
+
+private:
+  std::locale before_;
+};
+
+} // namespace
+
+TEST_F(Interruptions, AKilledWriterLeavesTheOldFileOrTheNew)
+{
+  const std::string file = path("file"), old(3000000, 'a'), fresh(3000000, 'b');
+  ASSERT_EQ(detail::replaceFile(file, old), "");
+  int left_behind = 0;
+  for (int i = 0; i < 20; ++i) {
+    const pid_t child = ::fork();
+    if (child == 0)
+      for (;;)
+        for (const auto* content : {&fresh, &old})
+          detail::replaceFile(file, *content);
+    ::usleep(static_cast<useconds_t>(3000 + 1700 * i)); // somewhere in the middle
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    const std::string content = contentOf(file);
+    ASSERT_TRUE(content == old || content == fresh) << "after kill " << i;
+    left_behind += static_cast<int>(
+        std::distance(fs::directory_iterator(directory_), fs::directory_iterator()) - 1);
+    // Whatever is left is in nobody's way.
+    ASSERT_EQ(detail::replaceFile(file, old), "");
+    ASSERT_EQ(contentOf(file), old);
+  }
+  EXPECT_GT(left_behind, 0) << "no writer was killed in the middle";
+}
+
+TEST_F(Interruptions, WhatAWorkerThrowsReachesTheCaller)
+{
+  for (const unsigned threads : {1U, 2U, 7U}) {
+    std::atomic<int> done{0};
+    const auto work = [&](std::size_t item, unsigned) {
+      if (item == 50)
+        throw std::domain_error("item 50");
+      ++done;
+    };
+    EXPECT_THROW(parallelFor(1000, threads, work), std::domain_error) << threads;
+    EXPECT_LT(done, 1000);
+    EXPECT_THROW(parallelFor(100, threads, [](auto, auto) { throw 7; }), int) << "all at once";
+  }
+}
+
+TEST_F(Interruptions, WhatTheProgressCallbackThrowsReachesTheCaller)
+{
+  auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointNormal>>();
+  const SurfletSet set = torus();
+  for (std::size_t i = 0; i < set.size(); ++i)
+    cloud->push_back({set.x[i], set.y[i], set.z[i], set.nx[i], set.ny[i], set.nz[i]});
+  for (const auto method : {Method::Explanation, Method::Dissertation}) {
+    SceneInterpreter<pcl::PointNormal> interpreter;
+    interpreter.setInputCloud(cloud);
+    interpreter.setDatabase(someModels());
+    interpreter.setMethod(method);
+    interpreter.setLeafSize(0.02);
+    interpreter.setNumberOfThreads(4);
+    interpreter.setProgressCallback([](double) -> bool { throw std::domain_error("enough"); });
+    EXPECT_THROW(interpreter.interpret(), std::domain_error);
+    // The object can be used again.
+    interpreter.setProgressCallback(nullptr);
+    EXPECT_NO_THROW(interpreter.interpret());
+  }
+}
+
+TEST_F(Interruptions, FilesAreTheSameInEveryLocale)
+{
+  const ModelDatabase models = someModels();
+  saveDatabase(models, path("classic.pcd"));
+  pcl::PointCloud<pcl::PointNormal> cloud;
+  for (int i = 0; i < 1234; ++i)
+    cloud.push_back({0.5F * static_cast<float>(i), 1.25F, 1e-3F, 0, 0, 1});
+  cloud.sensor_origin_ << 1.5F, 2.5F, 3.5F, 0;
+  pcl::io::savePCDFileASCII(path("ascii.pcd"), cloud);
+  const auto before = loadSurface(path("ascii.pcd")).surflets;
+  ASSERT_EQ(before.size(), 1234U);
+  ASSERT_EQ(before.x[1], 0.5F);
+  {
+    const CommaLocale comma;
+    saveDatabase(models, path("comma.pcd"));
+    EXPECT_EQ(loadDatabase(path("classic.pcd"))[0].delta_max, models[0].delta_max);
+    const auto after = loadSurface(path("ascii.pcd")).surflets;
+    ASSERT_EQ(after.size(), before.size());
+    EXPECT_EQ(after.x, before.x);
+    EXPECT_EQ(after.z, before.z);
+  }
+  EXPECT_EQ(contentOf(path("comma.pcd")), contentOf(path("classic.pcd")));
+}
