@@ -1,6 +1,5 @@
 #include "scene_models.h"
 
-
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/parallel.h"
 
