@@ -259,41 +259,103 @@ TEST(OnlineInterpretation, WhatIsMovedGetsAnotherId)
   EXPECT_EQ(online.detections()[1].state, OnlineState::Vanished);
 }
 
-TEST(OnlineInterpretation, ASureDetectionWaitsUntilEnoughHasChanged)
+/** \brief Height below which this share of a thing's surface lies. */
+float
+heightOf(const SurfletSet& set, double share)
+{
+  std::vector<float> z = set.z;
+  std::sort(z.begin(), z.end());
+  return z[static_cast<std::size_t>(share * static_cast<double>(z.size() - 1))];
+}
+
+/** \brief What lies between two shares of the surface, from below. */
+SurfletSet
+slice(const SurfletSet& set, double low, double high)
+{
+  const float from = heightOf(set, low), to = heightOf(set, high);
+  SurfletSet part;
+  for (std::size_t i = 0; i < set.size(); ++i)
+    if (set.z[i] >= from && (set.z[i] < to || high == 1))
+      part.push_back(set[i]);
+  return part;
+}
+
+TEST(OnlineInterpretation, ASureDetectionWaitsUntilATenthHasChangedInAll)
 {
   const SurfletSet all = thingAt(0, 0);
-  const auto lower = [&](float z, bool below) {
-    SurfletSet part;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if ((all.z[i] < z) == below)
-        part.push_back(all[i]);
-    return part;
-  };
-  const float top = *std::max_element(all.z.begin(), all.z.end());
-  const float bottom = *std::min_element(all.z.begin(), all.z.end());
-  const float cut = bottom + 0.93F * (top - bottom); // a few of a hundred cells are above
   OnlineParameters eager = quick();
   eager.stale = 0;
   OnlineInterpretation patient(models(), quick()), impatient(models(), eager);
   for (auto* online : {&patient, &impatient}) {
-    online->addScan(lower(cut, true));
+    online->addScan(slice(all, 0, 0.88));
     ASSERT_EQ(online->distractors().size(), 1U) << "sure";
   }
   const auto cells = find(patient, "bottle")->cells.size();
-  const auto kept = patient.addScan(lower(cut, false));
-  const auto sought = impatient.addScan(lower(cut, false));
+  const auto kept = patient.addScan(slice(all, 0.88, 0.94));
+  const auto sought = impatient.addScan(slice(all, 0.88, 0.94));
   ASSERT_GT(kept.changed_cells, 0U);
   EXPECT_EQ(kept.interpreted_cells, 0U);
   EXPECT_EQ(kept.kept, 1U);
   EXPECT_EQ(find(patient, "bottle")->cells.size(), cells);
-  EXPECT_GT(sought.interpreted_cells, cells);
   EXPECT_EQ(sought.sought, 1U);
   EXPECT_GT(find(impatient, "bottle")->cells.size(), cells);
-  // More of it, until a tenth has changed in all: then the rest is found as well.
-  SurfletSet raised = lower(cut - 0.4F * (top - bottom), false);
-  for (float& v : raised.z)
-    v += 0.006F;
-  EXPECT_GT(patient.addScan(raised).interpreted_cells, cells);
+  const auto enough = patient.addScan(slice(all, 0.94, 1));
+  EXPECT_LT(enough.changed_cells, cells / 10) << "not by itself";
+  EXPECT_EQ(enough.sought, 1U);
+  EXPECT_GT(find(patient, "bottle")->cells.size(), cells);
+}
+
+TEST(OnlineInterpretation, WhatIsInDoubtDoesNotWait)
+{
+  OnlineParameters doubting = quick();
+  doubting.coverage = 1;
+  OnlineInterpretation online(models(), doubting);
+  const SurfletSet most = facing(thingAt(0, 0), 1, 0, -0.6);
+  online.addScan(slice(most, 0, 0.97));
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  ASSERT_EQ(online.attractors().size(), 1U);
+  ASSERT_EQ(online.attractors()[0].id, find(online, "bottle")->id);
+  EXPECT_EQ(online.addScan(slice(most, 0.97, 1)).sought, 1U);
+}
+
+/** \brief Rays from kSensor that pass the bottle above \p height. */
+SurfletSet
+raysAbove(float height)
+{
+  SurfletSet rays;
+  const SurfletSet wall = wallSeenThrough(0);
+  for (std::size_t i = 0; i < wall.size(); ++i)
+    if (wall.z[i] > 1.5F * height)
+      rays.push_back(wall[i]);
+  return rays;
+}
+
+TEST(OnlineInterpretation, AKeptDetectionLosesTheCellsThatAreGone)
+{
+  OnlineInterpretation online(models(), quick());
+  online.addScan(thingAt(0, 0));
+  ASSERT_EQ(online.distractors().size(), 1U) << "sure";
+  const auto cells = find(online, "bottle")->cells.size();
+  const auto scan = online.addScan(raysAbove(heightOf(thingAt(0, 0), 0.95)), kSensor);
+  EXPECT_GT(scan.vanished_cells, 20U);
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  EXPECT_EQ(find(online, "bottle")->state, OnlineState::Kept);
+  EXPECT_LT(find(online, "bottle")->cells.size(), cells);
+  for (const auto c : find(online, "bottle")->cells)
+    ASSERT_TRUE(std::isfinite(online.cells().x[c]));
+}
+
+TEST(OnlineInterpretation, WhatIsLeftOfTheVanishedIsThereForTheNext)
+{
+  const SurfletSet all = thingAt(0, 0);
+  OnlineInterpretation online(models(), quick());
+  online.addScan(all);
+  const auto cells = find(online, "bottle")->cells.size();
+  online.addScan(raysAbove(heightOf(all, 0.25)), kSensor);
+  ASSERT_EQ(find(online, "bottle"), nullptr) << "too little is left";
+  online.addScan(all);
+  ASSERT_NE(find(online, "bottle"), nullptr);
+  EXPECT_GT(20 * find(online, "bottle")->cells.size(), 19 * cells);
 }
 
 /** \brief What users see, as text that differs if a bit does. */

@@ -58,7 +58,8 @@ interpretByDissertation(const SurfletSet& cells, const ModelDatabase& database,
   checkParameters(parameters);
   const PairSource source(cells);
   const SceneModels models =
-      sceneModels(database, parameters.background == BackgroundTreatment::Model, source.scale());
+      sceneModels(database, parameters.background == BackgroundTreatment::Model, source.scale(),
+                  parameters.threads);
   checkModels(models, parameters);
   const SceneData scene{cells, source, models};
 

@@ -204,7 +204,7 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
   check(p);
   const PairSource source(cells);
   const bool modelled = p.steps.background == BackgroundTreatment::Model;
-  SceneModels models = sceneModels(database, modelled, source.scale());
+  SceneModels models = sceneModels(database, modelled, source.scale(), p.steps.threads);
   checkModels(models, p.steps);
   for (auto& m : models.all)
     m.expected_cells = expectedCells(*m.model, p.leaf);

@@ -1,6 +1,7 @@
 #include "scene_models.h"
 
 #include "pcl_surflet/core/counter_random.h"
+#include "pcl_surflet/core/parallel.h"
 
 #include <algorithm>
 #include <array>
@@ -125,22 +126,26 @@ bestOverlap(const SceneModel& model, const std::vector<float>& histogram)
 }
 
 SceneModels
-sceneModels(const ModelDatabase& database, bool with_background, double scale)
+sceneModels(const ModelDatabase& database, bool with_background, double scale, unsigned threads)
 {
   SceneModels models;
   models.resolution = database.resolution();
   const double h_min = database.penaltyMinimum();
   models.log_h_min = static_cast<float>(std::log(h_min));
-  const auto chance = chanceAngles(models.resolution);
+  std::vector<std::size_t> order;
   for (const auto role : {ModelRole::Object, ModelRole::Background}) {
     for (std::size_t i = 0; i < database.size(); ++i)
-      if (database[i].role == role && (role == ModelRole::Object || with_background)) {
-        models.all.push_back(sceneModel(database[i], h_min, scale, chance));
-        models.all.back().index = i;
-      }
+      if (database[i].role == role && (role == ModelRole::Object || with_background))
+        order.push_back(i);
     if (role == ModelRole::Object)
-      models.objects = models.all.size();
+      models.objects = order.size();
   }
+  const auto chance = chanceAngles(models.resolution);
+  models.all.resize(order.size());
+  parallelFor(order.size(), threads, [&](std::size_t k, unsigned) {
+    models.all[k] = sceneModel(database[order[k]], h_min, scale, chance);
+    models.all[k].index = order[k];
+  });
   for (std::size_t i = 0; i < models.objects; ++i)
     models.largest_delta = std::max(models.largest_delta, models.all[i].model->delta_max);
   return models;

@@ -120,8 +120,9 @@ std::vector<float> chanceAngles(const Resolution& resolution);
 SceneModel sceneModel(const HistogramModel& model, double h_min, double scale,
                       const std::vector<float>& chance);
 
-/** \param scale of the scene's PairSource */
-SceneModels sceneModels(const ModelDatabase& database, bool with_background, double scale);
+/** \param scale of the scene's PairSource \param threads 0: all; does not change the result */
+SceneModels sceneModels(const ModelDatabase& database, bool with_background, double scale,
+                        unsigned threads = 1);
 
 } // namespace interpretation
 } // namespace pcl_surflet

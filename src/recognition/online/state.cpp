@@ -288,15 +288,13 @@ OnlineInterpretation::State::next(const Changes& changes, OnlineScan& scan) cons
 }
 
 void
-OnlineInterpretation::State::takeOver(Next&& next) noexcept
+OnlineInterpretation::State::takeKept(Next& next) noexcept
 {
-  for (const auto k : next.concern.reopened)
-    for (const auto c : detections[k].cells)
-      owner[c] = kNobody;
   for (std::size_t i = 0; i < next.concern.kept.size(); ++i) {
-    OnlineDetection& d = detections[next.concern.kept[i]];
+    const std::size_t k = next.concern.kept[i];
+    OnlineDetection& d = detections[k];
     d.state = OnlineState::Kept;
-    if (next.concern.changes[next.concern.kept[i]] > 0) {
+    if (next.concern.changes[k] > 0) {
       for (const auto c : d.cells)
         owner[c] = cells.takesPart(c) ? d.id : kNobody;
       d.cells.swap(next.kept_cells[i]);
@@ -305,12 +303,27 @@ OnlineInterpretation::State::takeOver(Next&& next) noexcept
     next.detections.push_back(std::move(d));
     next.notes.push_back(next.kept_notes[i]);
   }
+}
+
+void
+OnlineInterpretation::State::takeFound(Next& next) noexcept
+{
   for (std::size_t i = 0; i < next.found.size(); ++i) {
     for (const auto c : next.found[i].cells)
       owner[c] = next.found[i].id;
     next.detections.push_back(std::move(next.found[i]));
     next.notes.push_back(next.found_notes[i]);
   }
+}
+
+void
+OnlineInterpretation::State::takeOver(Next&& next) noexcept
+{
+  for (const auto k : next.concern.reopened)
+    for (const auto c : detections[k].cells)
+      owner[c] = kNobody;
+  takeKept(next);
+  takeFound(next);
   // Both lists by id: insertion, as what is kept is in order and found are few.
   for (std::size_t i = 1; i < next.detections.size(); ++i)
     for (std::size_t k = i; k > 0 && next.detections[k].id < next.detections[k - 1].id; --k) {

@@ -64,6 +64,8 @@ private:
   void noteKept(Next& next) const;
   void regroup(const Changes& changes, Next& next) const;
   void lookAround(Next& next) const;
+  void takeKept(Next& next) noexcept;
+  void takeFound(Next& next) noexcept;
   void takeOver(Next&& next) noexcept;
 };
 
