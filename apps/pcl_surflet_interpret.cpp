@@ -9,6 +9,7 @@
 #include "pcl_surflet/scene_interpreter.h"
 #include "pcl_surflet/surface_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -30,6 +31,7 @@ struct Options {
   Method method = Method::Explanation;
   BackgroundTreatment background = BackgroundTreatment::Ignore;
   double leaf = 0, distance = 0;
+  double min_confidence = 0.1; ///< of what is below, few are right: detail::confidenceOf()
   std::uint64_t planes = 0, neighbours = 0, threads = 0, detections = 0, seed = 1;
   bool csv = false, verbose = false;
   PoseJob pose;
@@ -157,7 +159,7 @@ printCsv(const std::string& path, const SceneDetection& d, const PoseEstimate* p
   std::string line =
       csvField(path) + "," + csvField(d.label) + "," + std::to_string(d.indices.size());
   for (const double v :
-       {d.centroid[0], d.centroid[1], d.centroid[2], d.score, d.fit, d.confidence, d.coverage})
+       {d.centre[0], d.centre[1], d.centre[2], d.score, d.fit, d.confidence, d.coverage})
     line += "," + numberOrNothing(v);
   if (pose != nullptr)
     line += poseCsv(*pose);
@@ -175,7 +177,7 @@ print(const std::string& path, const std::vector<SceneDetection>& detections,
       printCsv(path, d, pose);
       continue;
     }
-    const auto& c = d.centroid;
+    const auto& c = d.centre;
     std::printf("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, confidence %4.2f", path.c_str(),
                 d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.confidence);
     std::printf(std::isnan(d.coverage) ? "\n" : ", coverage %4.2f\n", d.coverage);
@@ -183,7 +185,9 @@ print(const std::string& path, const std::vector<SceneDetection>& detections,
       std::printf("%s: %-16s %s\n", path.c_str(), d.label.c_str(), poseText(*pose).c_str());
   }
   if (detections.empty() && !csv)
-    std::printf("%s: nothing found: %s\n", path.c_str(), diagnostics.reason.c_str());
+    std::printf("%s: nothing found: %s\n", path.c_str(),
+                diagnostics.reason.empty() ? "nothing is sure enough, see -min_confidence"
+                                           : diagnostics.reason.c_str());
 }
 
 using Count = unsigned long long;
@@ -253,16 +257,32 @@ interpreterFor(const ModelDatabase& database, const Options& o)
   return interpreter;
 }
 
+/** \return how many */
+std::size_t
+removeDoubtful(double min_confidence, std::vector<SceneDetection>& found)
+{
+  const auto end = std::remove_if(found.begin(), found.end(), [=](const SceneDetection& d) {
+    return d.confidence < min_confidence;
+  });
+  const auto removed = static_cast<std::size_t>(found.end() - end);
+  found.erase(end, found.end());
+  return removed;
+}
+
 void
 interpret(const std::string& path, Interpreter& interpreter, const Options& o)
 {
   const SurfletSet scene = surfletsIn(path, o);
   const Cloud::Ptr cloud = cloudOf(scene);
   interpreter.setInputCloud(cloud);
-  const auto found = interpreter.interpret();
+  auto found = interpreter.interpret();
   const auto& diagnostics = interpreter.getDiagnostics();
   if (diagnostics.status > SceneStatus::Cancelled)
     throw DataError(diagnostics.reason);
+  const std::size_t doubtful = removeDoubtful(o.min_confidence, found);
+  if (doubtful > 0)
+    note(path + ": left out " + std::to_string(doubtful) + " of a confidence below " +
+         number(o.min_confidence) + ", see -min_confidence");
   const auto poses = o.pose.estimate(cloud, found, o.seed);
   print(path, found, poses, diagnostics, o.csv);
   if (o.verbose) {
@@ -313,6 +333,8 @@ addOptions(CommandLine& line, Options& o)
             1e-9, 1e9);
   line.count("-max", "N", "detections, those of the most points, default all", o.detections, 1,
              1000000);
+  line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
+            o.min_confidence, 0, 1);
   line.text("-out", "OUT.pcd",
             "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
   line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
@@ -352,6 +374,8 @@ run(int argc, char** argv)
   line.require("-database");
   line.requireFiles(1, line.given("-out") || line.given("-picture") ? 1 : 1000000);
   checkBackground(line, o);
+  if (o.method == Method::Dissertation && !line.given("-min_confidence"))
+    o.min_confidence = 0; // its confidence is not calibrated
   if (line.given("-viewpoints") && !line.given("-pose"))
     throw UsageError("option -viewpoints goes with -pose");
   o.pose.load();

@@ -4,7 +4,15 @@
 
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 
+#include <array>
+
 namespace pcl_surflet {
+
+/** \brief What the parts of an object that are seen teach about its middle. */
+struct CentreLesson {
+  std::array<double, 3> centre; ///< centroid of the whole object, in the frame of the surflets
+  ObjectCentre* guess;          ///< learns; its weights are for the caller to use
+};
 
 /** \brief Trains a model of what an object looks like in a scene that is reduced to cells.
  *
@@ -12,7 +20,7 @@ namespace pcl_surflet {
  * cell suffer. So the object is reduced too (reduceToTwoSidedCells()), in four random orientations.
  * And as interpretation finds an object by the cells that support its model
  * (interpretByExplanation()), the histogram is that of the cells that support each other; a wine
- * glass loses its stem. HistogramModel:: surface_area becomes the area of these cells, by which the
+ * glass loses its stem. HistogramModel::surface_area becomes the area of these cells, by which the
  * share found of an object is judged.
  *
  * \param trainer resolution and role of the model; seven intervals in every dimension are best
@@ -33,12 +41,13 @@ PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& train
  * not fit. What is seen is reduced and cleared of cells that do not support the complete model,
  * like the object itself.
  *
+ * \param lesson if not null: told the cells that support the view, for the guess of the centre
  * \param condition names the view, e.g. "seen from 30 degrees"; at most 63 bytes
  * \param seen surflets of what is seen, several to a cell; other parameters as in trainForScenes()
  * \throws TrainingError if fewer than 30 cells support the model; then nothing is added
  * \throws std::invalid_argument for an unusable leaf, or a model without members */
 PCL_SURFLET_API void addView(HistogramModel& model, const std::string& condition,
                              const SurfletSet& seen, double leaf, std::uint64_t seed = 1,
-                             unsigned threads = 0);
+                             unsigned threads = 0, const CentreLesson* lesson = nullptr);
 
 } // namespace pcl_surflet
