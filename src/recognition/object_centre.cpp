@@ -104,7 +104,9 @@ ObjectCentre::guess(const SurfletSet& cells, const Indices& of, double r_mean,
   Vector3 offset{};
   for (std::size_t i = 0; i < kTerms; ++i)
     accumulate(offset, t.vectors[i], weights[i]);
-  const double length = std::sqrt(detail::dot(offset, offset));
+  const double length = std::hypot(offset[0], offset[1], offset[2]);
+  if (!std::isfinite(length)) // weights near the largest number
+    return t.middle;
   Vector3 centre = t.middle;
   accumulate(centre, offset, r_mean * kFarthest / std::max(length, kFarthest));
   return centre;
