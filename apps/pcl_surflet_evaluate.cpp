@@ -251,6 +251,9 @@ addParameters(CommandLine& line, RecogniserOptions& o, std::uint64_t& bins)
   line.real("-lambda_c", "X", "step 6, default 0.3", steps.lambda_c, 0, 1);
   line.real("-min_fit", "X", "explanation: least histogram intersection, default 0.72",
             o.explanation.min_fit, 0, 1);
+  line.real("-min_confidence", "X",
+            "explanation: leaves out what is less sure, default 0 (pcl_surflet_interpret: 0.1)",
+            o.min_confidence, 0, 1);
 }
 
 /** \brief What scenes hold and methods know, given on the command line. */

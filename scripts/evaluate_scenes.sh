@@ -11,6 +11,8 @@
 #   SEED     seed of the first scene, default 1001 (seeds below 100 are for tuning)
 #   ONLY     rows to run, a regular expression, default all
 #   PROGRAM  default build/release/bin/pcl_surflet_evaluate
+#   YCB      where CrackerBox.obj, MustardBottle.obj, PowerDrill.obj and TomatoSoupCan.obj are; default
+#            no such rows
 #   MESHES   where the meshes of libcgal-demo are; fetched into data/ by default
 set -euo pipefail
 directory=$(realpath -m "${1:?usage: evaluate_scenes.sh DIR [SCENES]}")
@@ -80,6 +82,20 @@ for views in one two ring24; do
   sensor=(-treatment model -presence 0.5 -views "$views" -sensor_noise 0.0005 -grazing 80)
   row "sensor_$views" "${sensor[@]}" "${seven[@]}"
   row "sensor_${views}_touching" "${sensor[@]}" -spacing pile "${seven[@]}"
+  # Five fixed scenes: two of two objects, two of three, one of four.
+  sensor=(-treatment model -views "$views" -sensor_noise 0.0005 -grazing 80)
+  for present in 2 3 4; do
+    run fixed "fixed_${views}_$present" -scenes $((present < 4 ? 2 : 1)) "${sensor[@]}" \
+      -present $present "${seven[@]}"
+  done
+  # Laser scans of household things. A modelled table and the sides of a box are the same to a
+  # histogram, so the table is excluded.
+  if [ -n "${YCB:-}" ]; then
+    sensor=(-treatment exclude -presence 0.5 -views "$views" -sensor_noise 0.0005 -grazing 80)
+    things=("$YCB"/{CrackerBox,MustardBottle,PowerDrill,TomatoSoupCan}.obj)
+    row "sensor_ycb_$views" "${sensor[@]}" "${things[@]}"
+    row "sensor_ycb_${views}_touching" "${sensor[@]}" -spacing pile "${things[@]}"
+  fi
 done
 
 # Curves: fewer scenes, as each is several rows.
@@ -102,7 +118,7 @@ gathered() {
 }
 overall() { awk -F, 'NR == 1 || $12 == "all"'; }
 gathered scenes >"$directory/objects.csv"
-for group in scenes critical scaling; do gathered $group | overall >"$directory/$group.csv"; done
+for group in scenes fixed critical scaling; do gathered $group | overall >"$directory/$group.csv"; done
 
 awk -F, 'NR == 1 {
     print "| row | method | scenes | class. (5.9) | accuracy (5.10) | strict | recall | precision | recall x precision | false / scene | s / scene | x normals | memory |"

@@ -4,6 +4,7 @@
 
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/geometry.h"
+#include "pcl_surflet/scene_interpreter.h"
 
 #include <algorithm>
 #include <functional>
@@ -69,7 +70,7 @@ public:
       p.steps = options_.dissertation;
       p.steps.seed = seed;
       p.leaf = options_.leaf;
-      return by_explanation_ ? interpretByExplanation(visible, database_, p)
+      return by_explanation_ ? withoutDoubtful(interpretByExplanation(visible, database_, p))
                              : interpretByDissertation(visible, database_, p.steps);
     };
     if (options_.dissertation.background != BackgroundTreatment::Exclude)
@@ -84,6 +85,19 @@ public:
   }
 
 private:
+  SceneInterpretation
+  withoutDoubtful(SceneInterpretation found) const
+  {
+    auto& all = found.detections;
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const Detection& d) {
+                               return detail::confidenceOf(d, options_.dissertation.min_cluster) <
+                                      options_.min_confidence;
+                             }),
+              all.end());
+    return found;
+  }
+
   RecogniserOptions options_;
   bool by_explanation_;
   ModelDatabase database_;
@@ -182,6 +196,9 @@ private:
       d.model = cluster.object;
       d.label = labels_[d.model];
       d.cells = std::move(cluster.cells);
+      const Extent extent = computeExtent(cells.subset(d.cells));
+      std::copy(extent.centroid, extent.centroid + 3, d.centroid.begin());
+      d.centre = d.centroid;
       d.score = -cluster.distance;
       found.detections.push_back(std::move(d));
     }

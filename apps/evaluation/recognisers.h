@@ -20,8 +20,9 @@ struct RecogniserOptions {
   ExplanationParameters explanation;
   DissertationParameters dissertation; ///< background, threads: of all methods
   double leaf = 0.0058;
-  int bins = 0;             ///< in each of the four dimensions; 0: what suits the method
-  bool on_surfaces = false; ///< trains models for explanations on plain surfaces too
+  double min_confidence = 0; ///< explanation: leaves out what is less sure, in [0, 1]
+  int bins = 0;              ///< in each of the four dimensions; 0: what suits the method
+  bool on_surfaces = false;  ///< trains models for explanations on plain surfaces too
 };
 
 /** \brief Finds the objects it was trained on. */

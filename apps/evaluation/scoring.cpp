@@ -23,15 +23,14 @@ instancesOf(const CellScene& scene, const Detection& d)
   return cells;
 }
 
-/** \brief Is there a detection of the item's name whose middle is within half r_mean of its? */
+/** \brief Is there a detection of the item's name whose centre is within half r_mean of its? */
 bool
-isCentred(const CellScene& scene, const PlacedItem& item, const std::vector<Detection>& detections)
+isCentred(const PlacedItem& item, const std::vector<Detection>& detections)
 {
   return std::any_of(detections.begin(), detections.end(), [&](const Detection& d) {
-    const Extent at = computeExtent(scene.cells.subset(d.cells));
     const double distance =
-        std::hypot(at.centroid[0] - item.centroid[0], at.centroid[1] - item.centroid[1],
-                   at.centroid[2] - item.centroid[2]);
+        std::hypot(d.centre[0] - item.centroid[0], d.centre[1] - item.centroid[1],
+                   d.centre[2] - item.centroid[2]);
     return d.label == item.label && !d.cells.empty() && distance <= item.r_mean / 2;
   });
 }
@@ -147,7 +146,7 @@ Score::add(const CellScene& scene, const std::vector<Detection>& detections)
     for (std::size_t m = 0; m < labels_.size(); ++m)
       if (!item.clutter && item.label == labels_[m]) {
         ++counts_[m].present;
-        counts_[m].centred += isCentred(scene, item, detections) ? 1 : 0;
+        counts_[m].centred += isCentred(item, detections) ? 1 : 0;
       }
   std::vector<char> found(scene.items.size() + 1, 0);
   for (const auto& d : detections) {

@@ -33,7 +33,7 @@ struct Counts {
   std::size_t strict = 0;   ///< with most of their cells on one instance of that label
   std::size_t doubles = 0;  ///< strict, but of an instance found before
   /** \brief Instances for which a cluster of their label has its centre within half r_mean of
-   * theirs. Of partial views the centre is not that of the object. */
+   * theirs: Detection::centre. */
   std::size_t centred = 0;
   std::size_t cells = 0;       ///< in clusters that are right
   std::size_t right_cells = 0; ///< of these, from objects of that label, Eq. 5.10

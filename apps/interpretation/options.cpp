@@ -26,6 +26,8 @@ addOptions(CommandLine& line, InterpretOptions& o)
             1e-9, 1e9);
   line.count("-max", "N", "detections, those of the most points, default all", o.detections, 1,
              1000000);
+  line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
+            o.min_confidence, 0, 1);
   line.text("-out", "OUT.pcd",
             "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
   line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
@@ -66,6 +68,8 @@ readInterpretOptions(const std::string& program, int argc, char** argv, Interpre
   line.require("-database");
   line.requireFiles(1, line.given("-out") || line.given("-picture") ? 1 : 1000000);
   checkBackground(line, o);
+  if (o.method == Method::Dissertation && !line.given("-min_confidence"))
+    o.min_confidence = 0; // its confidence is not calibrated
   if (line.given("-viewpoints") && !line.given("-pose"))
     throw UsageError("option -viewpoints goes with -pose");
   o.files = line.files();

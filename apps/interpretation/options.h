@@ -18,6 +18,7 @@ struct InterpretOptions {
   Method method = Method::Explanation;
   BackgroundTreatment background = BackgroundTreatment::Ignore;
   double leaf = 0, distance = 0;
+  double min_confidence = 0.1; ///< of what is below, few are right: detail::confidenceOf()
   std::uint64_t planes = 0, neighbours = 0, threads = 0, detections = 0, seed = 1;
   bool csv = false, verbose = false;
   PoseJob pose;

@@ -4,6 +4,8 @@
 #include "labelled_pcd.h"
 #include "surfaces.h"
 
+#include <algorithm>
+
 namespace pcl_surflet {
 namespace apps {
 namespace {
@@ -58,6 +60,18 @@ objectFiles(const std::string& path, const SurfletSet& scene,
   return files;
 }
 
+/** \return how many */
+std::size_t
+removeDoubtful(double min_confidence, std::vector<SceneDetection>& found)
+{
+  const auto end = std::remove_if(found.begin(), found.end(), [=](const SceneDetection& d) {
+    return d.confidence < min_confidence;
+  });
+  const auto removed = static_cast<std::size_t>(found.end() - end);
+  found.erase(end, found.end());
+  return removed;
+}
+
 } // namespace
 
 SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& o,
@@ -86,10 +100,15 @@ SceneWorker::interpretInto(const std::string& path, InterpretedScene& out)
   const SurfletSet scene = surfletsIn(path, o_, out.notes);
   const auto cloud = cloudOf(scene);
   interpreter_.setInputCloud(cloud);
-  const auto found = interpreter_.interpret();
+  auto found = interpreter_.interpret();
   const auto& diagnostics = interpreter_.getDiagnostics();
   if (diagnostics.status > SceneStatus::Cancelled)
     throw DataError(diagnostics.reason);
+  const std::size_t doubtful = removeDoubtful(o_.min_confidence, found);
+  if (doubtful > 0)
+    out.notes.push_back(path + ": left out " + std::to_string(doubtful) +
+                        " of a confidence below " + number(o_.min_confidence) +
+                        ", see -min_confidence");
   const auto poses = o_.pose.estimate(cloud, found, o_.seed);
   out.found = foundText(path, found, poses, diagnostics, o_.csv);
   if (o_.verbose)

@@ -38,7 +38,7 @@ csvLine(const std::string& path, const SceneDetection& d, const PoseEstimate* po
   std::string line =
       csvField(path) + "," + csvField(d.label) + "," + std::to_string(d.indices.size());
   for (const double v :
-       {d.centroid[0], d.centroid[1], d.centroid[2], d.score, d.fit, d.confidence, d.coverage})
+       {d.centre[0], d.centre[1], d.centre[2], d.score, d.fit, d.confidence, d.coverage})
     line += "," + numberOrNothing(v);
   return line + (pose != nullptr ? poseCsv(*pose) : "") + "\n";
 }
@@ -46,7 +46,7 @@ csvLine(const std::string& path, const SceneDetection& d, const PoseEstimate* po
 std::string
 textLines(const std::string& path, const SceneDetection& d, const PoseEstimate* pose)
 {
-  const auto& c = d.centroid;
+  const auto& c = d.centre;
   std::string text =
       formatted("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, confidence %4.2f", path.c_str(),
                 d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.confidence);
@@ -115,7 +115,10 @@ foundText(const std::string& path, const std::vector<SceneDetection>& detections
           const std::vector<PoseEstimate>& poses, const SceneDiagnostics& diagnostics, bool csv)
 {
   if (detections.empty() && !csv)
-    return path + ": nothing found: " + diagnostics.reason + "\n";
+    return path + ": nothing found: " +
+           (diagnostics.reason.empty() ? "nothing is sure enough, see -min_confidence"
+                                       : diagnostics.reason) +
+           "\n";
   std::string text;
   for (std::size_t k = 0; k < detections.size(); ++k)
     text +=

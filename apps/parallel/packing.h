@@ -38,7 +38,7 @@ void
 serialize(Archive& archive, HistogramModel& m, unsigned)
 {
   archive& m.label& m.role& m.resolution& m.delta_max& m.r_mean& m.r_max& m.r_min;
-  archive& m.surface_area& m.members;
+  archive& m.surface_area& m.centre& m.members;
 }
 
 template <class Archive>

@@ -18,6 +18,8 @@ using pcl::PCLPointField;
 constexpr std::uint32_t kFormatVersion = 1;
 constexpr std::uint32_t kTextBytes = HistogramModel::kMaxLabelBytes + 1;
 
+constexpr std::uint32_t kCentreTerms = std::tuple_size<CentreWeights>::value;
+
 struct FieldSpec {
   const char* name;
   std::uint8_t type;
@@ -25,7 +27,7 @@ struct FieldSpec {
   bool optional = false;
 };
 
-const std::array<FieldSpec, 17> kFields = {{{"format_version", PCLPointField::UINT32, 1},
+const std::array<FieldSpec, 18> kFields = {{{"format_version", PCLPointField::UINT32, 1},
                                             {"label", PCLPointField::UINT8, kTextBytes},
                                             {"condition", PCLPointField::UINT8, kTextBytes},
                                             {"role", PCLPointField::UINT32, 1},
@@ -41,6 +43,7 @@ const std::array<FieldSpec, 17> kFields = {{{"format_version", PCLPointField::UI
                                             {"floor", PCLPointField::FLOAT64, 1},
                                             {"misfit", PCLPointField::FLOAT64, 1, true},
                                             {"misfit_limit", PCLPointField::FLOAT64, 1, true},
+                                            {"centre", PCLPointField::FLOAT64, kCentreTerms, true},
                                             {"histogram", PCLPointField::FLOAT32, 0}}};
 
 /** \brief One row of the table: a member of a model. */
@@ -50,6 +53,7 @@ struct Row {
   std::array<std::uint32_t, 4> resolution{};
   double delta_max = 0, r_mean = 0, r_max = 0, r_min = 0, surface_area = 0, features = 0, tau = 0,
          floor = 0, misfit = 0, misfit_limit = 0;
+  CentreWeights centre{};
   std::vector<float> histogram;
 
   /** \brief Where each field of kFields lives, in that order. */
@@ -72,6 +76,7 @@ struct Row {
             &floor,
             &misfit,
             &misfit_limit,
+            centre.data(),
             histogram.data()};
   }
 };
@@ -121,6 +126,7 @@ rowOf(const HistogramModel& model, std::size_t member, const PenaltyParameters& 
   row.floor = penalty.floor;
   row.misfit = model.members[member].misfit;
   row.misfit_limit = model.members[member].misfit_limit;
+  row.centre = model.centre;
   row.histogram = model.members[member].histogram;
   return row;
 }
@@ -229,6 +235,7 @@ modelOf(const Row& row, const TableReader& reader, const std::string& where)
   model.r_max = row.r_max;
   model.r_min = row.r_min;
   model.surface_area = row.surface_area;
+  model.centre = row.centre;
   model.members.push_back({textOf(row.condition, reader, where), row.histogram,
                            static_cast<std::uint64_t>(row.features), row.misfit, row.misfit_limit});
   return model;
@@ -240,7 +247,7 @@ sameModel(const HistogramModel& a, const HistogramModel& b)
 {
   return a.label == b.label && a.role == b.role && a.resolution == b.resolution &&
          a.delta_max == b.delta_max && a.r_mean == b.r_mean && a.r_max == b.r_max &&
-         a.r_min == b.r_min && a.surface_area == b.surface_area;
+         a.r_min == b.r_min && a.surface_area == b.surface_area && a.centre == b.centre;
 }
 
 std::vector<HistogramModel>

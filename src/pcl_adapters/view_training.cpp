@@ -1,5 +1,6 @@
 #include "pcl_surflet/view_training.h"
 
+#include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/recognition/scene_training.h"
 
 #include <algorithm>
@@ -23,8 +24,9 @@ constexpr double kGrazing = 80;
 /** \brief The members of one model, view by view. */
 class Views {
 public:
-  Views(HistogramModel& model, double leaf, std::uint64_t seed, unsigned threads)
-      : model_(model), leaf_(leaf), seed_(seed), threads_(threads)
+  Views(HistogramModel& model, const CentreLesson& lesson, double leaf, std::uint64_t seed,
+        unsigned threads)
+      : model_(model), lesson_(lesson), leaf_(leaf), seed_(seed), threads_(threads)
   {
   }
 
@@ -43,7 +45,7 @@ private:
   addIfEnough(const std::string& name, const SurfletSet& seen)
   {
     try {
-      addView(model_, name, seen, leaf_, seed_, threads_);
+      addView(model_, name, seen, leaf_, seed_, threads_, &lesson_);
     }
     catch (const TrainingError&) { // from here it shows next to nothing
     }
@@ -63,6 +65,7 @@ private:
   }
 
   HistogramModel& model_;
+  CentreLesson lesson_;
   double leaf_;
   std::uint64_t seed_;
   unsigned threads_;
@@ -80,6 +83,15 @@ addViews(Views& views, const std::vector<OrientedScan>& scans, bool ring)
       if (ring && place < places / 2)
         views.add(name + " and opposite", sensedSurflets({scans[k], scans[k + places]}));
     }
+}
+
+/** \brief Of the whole surface, also of what no sensor sees. */
+std::array<double, 3>
+centroidOf(const SceneItem& item, std::uint64_t seed)
+{
+  constexpr std::size_t kSurflets = 20000;
+  const Extent extent = computeExtent(item.sample(kSurflets, seed));
+  return {extent.centroid[0], extent.centroid[1], extent.centroid[2]};
 }
 
 } // namespace
@@ -119,8 +131,10 @@ trainForSensors(const HistogramModelTrainer& trainer, const SceneItem& item,
   const auto scans = scansAlone(item, sensing, seed);
   HistogramModel model =
       trainForScenes(trainer, item.label, sensedSurflets(scans), leaf, seed, threads);
-  Views views(model, leaf, seed, threads);
+  ObjectCentre centre(model.r_mean);
+  Views views(model, {centroidOf(item, seed), &centre}, leaf, seed, threads);
   addViews(views, scans, sensing.views.views == ViewSet::Ring24);
+  model.centre = centre.weights();
   return model;
 }
 

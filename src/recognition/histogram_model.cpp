@@ -77,6 +77,9 @@ HistogramModel::problem() const
     return in_model(text);
   if (auto text = lengthProblem(*this); !text.empty())
     return in_model(text);
+  for (const double w : centre)
+    if (!std::isfinite(w))
+      return in_model("a weight of its centre is not finite");
   if (members.empty())
     return in_model("it has no histogram");
   for (const auto& member : members)

@@ -105,6 +105,19 @@ settleAll(const HistogramModel& model, const std::string& label, std::vector<Ori
   return cells;
 }
 
+/** \brief Where orientationsOf() turns the middle of the object to. */
+void
+teach(const CentreLesson& lesson, const std::vector<Orientation>& all, std::uint64_t seed)
+{
+  SurfletSet centre;
+  centre.push_back({static_cast<float>(lesson.centre[0]), static_cast<float>(lesson.centre[1]),
+                    static_cast<float>(lesson.centre[2]), 0, 0, 1});
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const Surflet turned = randomlyRotated(centre, seed + k)[0];
+    lesson.guess->learn(all[k].cells.subset(all[k].support), {turned.x, turned.y, turned.z});
+  }
+}
+
 } // namespace
 
 HistogramModel
@@ -128,7 +141,7 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
 
 void
 addView(HistogramModel& model, const std::string& condition, const SurfletSet& seen, double leaf,
-        std::uint64_t seed, unsigned threads)
+        std::uint64_t seed, unsigned threads, const CentreLesson* lesson)
 {
   if (model.members.empty())
     throw std::invalid_argument("pcl_surflet: a view needs a model of the whole object");
@@ -138,6 +151,8 @@ addView(HistogramModel& model, const std::string& condition, const SurfletSet& s
   member.condition = condition;
   member.histogram = meanHistogram(all, model, seed, threads, member.features);
   model.members.push_back(std::move(member));
+  if (lesson != nullptr)
+    teach(*lesson, all, seed);
 }
 
 } // namespace pcl_surflet

@@ -35,6 +35,7 @@ protected:
     auto cup = trainer.train("cup \xC3\xA9", sampleShape(*shapeByName("cup"), 400, 1));
     cup.members.push_back(cup.members[0]);
     cup.members[1].condition = "noise 1 %";
+    cup.centre = {0.5, -1.25, 2, 0, 0, 0, -0.1};
     database_.add(cup);
     trainer.setRole(ModelRole::Background);
     database_.add(trainer.train("table", sampleShape(Shape::plane(1, 1), 400, 1)));
@@ -123,6 +124,7 @@ TEST_F(DatabaseFile, RoundTripKeepsEverything)
     EXPECT_EQ(a.r_max, b.r_max);
     EXPECT_EQ(a.r_min, b.r_min);
     EXPECT_EQ(a.surface_area, b.surface_area);
+    EXPECT_EQ(a.centre, b.centre);
     ASSERT_EQ(a.members.size(), b.members.size());
     for (std::size_t k = 0; k < a.members.size(); ++k) {
       EXPECT_EQ(a.members[k].condition, b.members[k].condition);
@@ -165,6 +167,8 @@ TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
   expectHas(errorWith("features", -3.0), "features");
   expectHas(errorWith("misfit", nan), "misfit");
   expectHas(errorWith("misfit_limit", -1.0), "misfit");
+  expectHas(errorWith("centre", nan, 0, 6), "centre is not finite");
+  expectHas(errorWith("centre", 7.0, 2, 1), "member");
   expectHas(errorWith("tau", 0.25), "tau or floor");
   expectHas(errorWith("histogram", std::nanf(""), 1, 3), "not finite");
   expectHas(errorWith("histogram", -0.5f, 1, 3), "negative");
@@ -191,8 +195,10 @@ TEST_F(DatabaseFile, PenaltyIsChecked)
 
 TEST_F(DatabaseFile, MissingOrForeignFieldsAreRefused)
 {
-  const auto newer = [](const std::string& name) { return name.rfind("misfit", 0) == 0; };
-  for (int k = 0; k < 17; ++k) {
+  const auto newer = [](const std::string& name) {
+    return name.rfind("misfit", 0) == 0 || name == "centre";
+  };
+  for (int k = 0; k < 18; ++k) {
     std::string name;
     const auto error = errorAfter([&](auto& t) {
       name = t.fields[static_cast<std::size_t>(k)].name;

@@ -44,6 +44,12 @@ modelOf(std::size_t k)
   return models[k];
 }
 
+double
+distance(const std::array<double, 3>& a, const std::array<double, 3>& b)
+{
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
 /** \brief Labels found in what one sensor sees of both things; \p members of their models are used.
  */
 std::vector<std::string>
@@ -73,6 +79,11 @@ foundFromOneSide(std::size_t members)
   for (const auto& d : found.detections) {
     labels.push_back(d.label);
     EXPECT_EQ(d.member > 0, members > 1) << "a view of it answers, not the whole";
+    for (const auto& item : scene.items)
+      if (item.label == d.label) {
+        EXPECT_LT(distance(d.centre, item.centroid), item.r_mean / 2);
+        EXPECT_LT(distance(d.centre, item.centroid), 0.8 * distance(d.centroid, item.centroid));
+      }
   }
   return labels;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pcl_surflet/core/pair_histogram.h"
+#include "pcl_surflet/recognition/object_centre.h"
 
 #include <cstdint>
 #include <string>
@@ -40,11 +41,13 @@ struct PCL_SURFLET_API HistogramModel {
   double r_max = 0;                   ///< largest distance of a surflet to the centroid
   double r_min = 0;                   ///< smallest distance of a surflet to the centroid
   double surface_area = 0;            ///< 0 if unknown (trained from points)
-  std::vector<ModelMember> members;   ///< at least one; the first is the complete object's
+  /** \brief From cells of a part of the object to its middle, see ObjectCentre. */
+  CentreWeights centre{};
+  std::vector<ModelMember> members; ///< at least one; the first is the complete object's
 
   /** \brief Empty if the model is usable, else what is wrong: checks label (not "unknown"),
-   * resolution, lengths (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0), and of
-   * every member size, values and sum. */
+   * resolution, lengths (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0),
+   * weights (finite) and of every member size, values and sum. */
   std::string problem() const;
 };
 

@@ -131,6 +131,10 @@ struct Detection {
   std::string label;                ///< of the model
   std::vector<std::uint32_t> cells; ///< indices of its surflets in the scene, ascending
   std::array<double, 3> centroid{}; ///< of these surflets
+  /** \brief Where the centroid of the whole object is expected, of which the surflets may be one
+   * side: by explanation with models from trainForSensors(), see ObjectCentre; else the same as
+   * centroid. */
+  std::array<double, 3> centre{};
   /** \brief Nats per feature by which the model's mean log-likelihood exceeds that of the best
    * other model, on the regrouped surflets; at least 0 if nothing was merged in step 7. */
   double score = 0;

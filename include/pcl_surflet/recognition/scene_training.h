@@ -4,7 +4,15 @@
 
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 
+#include <array>
+
 namespace pcl_surflet {
+
+/** \brief What the parts of an object that are seen teach about its middle. */
+struct CentreLesson {
+  std::array<double, 3> centre; ///< centroid of the whole object, in the frame of the surflets
+  ObjectCentre* guess;          ///< learns; its weights are for the caller to use
+};
 
 /** \brief Trains a model of what an object looks like in a scene that is reduced to cells.
  *
@@ -21,6 +29,7 @@ namespace pcl_surflet {
  * \param leaf edge of the cells, as in the scenes to come; positive and finite
  * \param seed of the orientations
  * \param threads 0: all; does not change the result
+ * \param lesson if not null: told the cells that support the view, for the guess of the centre
  * \throws TrainingError if fewer than 30 cells support the model: take smaller cells
  * \throws std::invalid_argument for an unusable leaf */
 PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& trainer,
@@ -41,10 +50,11 @@ PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& train
  * \param leaf edge of the cells, the one that the model was trained with
  * \param seed of the orientations
  * \param threads 0: all; does not change the result
+ * \param lesson if not null: told the cells that support the view, for the guess of the centre
  * \throws TrainingError if fewer than 30 cells support the model; then nothing is added
  * \throws std::invalid_argument for an unusable leaf, or a model without members */
 PCL_SURFLET_API void addView(HistogramModel& model, const std::string& condition,
                              const SurfletSet& seen, double leaf, std::uint64_t seed = 1,
-                             unsigned threads = 0);
+                             unsigned threads = 0, const CentreLesson* lesson = nullptr);
 
 } // namespace pcl_surflet

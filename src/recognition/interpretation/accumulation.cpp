@@ -181,7 +181,10 @@ detectionsOf(const SurfletSet& cells, Hypotheses& all)
   for (auto& h : all) {
     if (h.result.cells.empty())
       continue;
+    const auto before = h.result.centroid;
     h.result.centroid = interpretation::centroidOf(cells, h.result.cells);
+    for (std::size_t a = 0; a < 3; ++a)
+      h.result.centre[a] += h.result.centroid[a] - before[a];
     detections.push_back(std::move(h.result));
   }
   std::stable_sort(detections.begin(), detections.end(),

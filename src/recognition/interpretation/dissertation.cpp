@@ -40,7 +40,7 @@ detectionsOf(const SceneData& scene, std::vector<ClustersOfModel>& clusters)
       Detection d;
       d.model = scene.models.all[k].index;
       d.label = scene.models.all[k].model->label;
-      d.centroid = centroidOf(scene.cells, c.surflets);
+      d.centre = d.centroid = centroidOf(scene.cells, c.surflets);
       d.score = c.margin;
       d.seeds = c.seeds;
       d.cells = std::move(c.surflets);

@@ -107,6 +107,7 @@ detectionOf(const SceneData& scene, Explanation&& e, std::uint64_t seed)
   d.model = model.index;
   d.label = model.model->label;
   d.centroid = centroidOf(scene.cells, e.cells);
+  d.centre = ObjectCentre::guess(scene.cells, e.cells, model.model->r_mean, model.model->centre);
   d.score = scoreOf(scene, e, seed);
   d.fit = e.fit;
   d.margin = marginOf(scene, e, seed);

@@ -1,4 +1,5 @@
 // How well a cluster lies on a model, and how to make it lie better.
+#include "core/cholesky.h"
 #include "pose_parts.h"
 
 #include <algorithm>
@@ -137,33 +138,7 @@ selfShare(const ModelData& model, const RigidMotion& motion, double reach)
 std::array<double, 6>
 NormalEquations::solved(double damping) const
 {
-  auto a = matrix;
-  std::array<double, 6> x = right;
-  for (std::size_t i = 0; i < 6; ++i)
-    a[i][i] += damping;
-  for (std::size_t i = 0; i < 6; ++i) { // Cholesky: a = l l^T, l in the lower half
-    for (std::size_t k = 0; k < i; ++k)
-      a[i][i] -= a[i][k] * a[i][k];
-    if (!(a[i][i] > 0))
-      return {};
-    a[i][i] = std::sqrt(a[i][i]);
-    for (std::size_t j = i + 1; j < 6; ++j) {
-      for (std::size_t k = 0; k < i; ++k)
-        a[j][i] -= a[j][k] * a[i][k];
-      a[j][i] /= a[i][i];
-    }
-  }
-  for (std::size_t i = 0; i < 6; ++i) {
-    for (std::size_t k = 0; k < i; ++k)
-      x[i] -= a[i][k] * x[k];
-    x[i] /= a[i][i];
-  }
-  for (std::size_t i = 6; i-- > 0;) {
-    for (std::size_t k = i + 1; k < 6; ++k)
-      x[i] -= a[k][i] * x[k];
-    x[i] /= a[i][i];
-  }
-  return x;
+  return solvedByCholesky(matrix, right, damping);
 }
 
 NormalEquations
