@@ -7,7 +7,6 @@ packages=(
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
   libgtest-dev libbenchmark-dev libnanoflann-dev
   gnuplot-nox fonts-dejavu-core
-  doxygen help2man  # scripts/doc.sh, scripts/make_man.sh
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )
 # Optional and large: --with-opencv adds the peer of pcl_surflet_evaluate_peers.
