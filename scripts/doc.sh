@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Makes the documentation of the API and the pages of doc/ as HTML: scripts/doc.sh [DIR], default out/doc.
-# Fails if anything that is public lacks its description, or a link leads nowhere.
+# Fails if anything that is public lacks its description, or if the pages have what scripts/check_docs.sh does not like.
 set -euo pipefail
 out=$(realpath -m "${1:-$(dirname "$0")/../out/doc}")
 cd "$(dirname "$0")/.."
@@ -14,4 +14,5 @@ if [ -s "$out/warnings.txt" ]; then
   cat "$out/warnings.txt" >&2
   exit 1
 fi
+scripts/check_docs.sh
 echo "$out/html/index.html"

@@ -9,7 +9,6 @@ packages=(
   libgtest-dev libbenchmark-dev libnanoflann-dev
   pkg-config clang lintian fakeroot file  # headers, consumers and packages are tested with them
   gnuplot-nox fonts-dejavu-core
-  doxygen help2man  # scripts/doc.sh, scripts/make_man.sh
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )
 # Optional: --with-opencv adds the peer of pcl_surflet_evaluate_peers (large), --with-checks what
