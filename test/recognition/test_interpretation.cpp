@@ -1,5 +1,6 @@
 // The seven steps together.
 #include "pcl_surflet/core/cell_reduction.h"
+#include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/scene_generator.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
 #include "pcl_surflet/recognition/scene_interpretation.h"
@@ -156,6 +157,40 @@ TEST(Dissertation, ExclusionLeavesWhatIsNotInTheEmptyScene)
   EXPECT_EQ(cellsAwayFrom(cells, {}, kLeaf).size(), cells.size());
   EXPECT_TRUE(cellsAwayFrom({}, cells, kLeaf).empty());
   EXPECT_THROW(cellsAwayFrom(cells, cells, 0), std::invalid_argument);
+}
+
+TEST(Dissertation, CellsAwayFromAnEmptySceneAreWhatOneByOneSays)
+{
+  const auto cloud = [](std::uint64_t seed) {
+    CounterRandom random(seed);
+    SurfletSet set;
+    for (int i = 0; i < 1500; ++i) {
+      const auto at = [&] { return static_cast<float>(random.uniform(-1, 1)); };
+      set.appendChecked({at(), at(), at(), at(), at(), at()});
+    }
+    return set;
+  };
+  const SurfletSet cells = cloud(1), empty = cloud(2);
+  constexpr double kDistance = 0.2;
+  std::vector<std::uint32_t> expected;
+  std::size_t near = 0;
+  for (std::uint32_t i = 0; i < cells.size(); ++i) {
+    bool is_near = false, is_background = false;
+    for (std::size_t j = 0; j < empty.size(); ++j)
+      if (std::hypot(cells.x[i] - empty.x[j], cells.y[i] - empty.y[j], cells.z[i] - empty.z[j]) <=
+          kDistance) {
+        is_near = true;
+        is_background = is_background || cells.nx[i] * empty.nx[j] + cells.ny[i] * empty.ny[j] +
+                                                 cells.nz[i] * empty.nz[j] >
+                                             0.7F;
+      }
+    near += is_near;
+    if (!is_background)
+      expected.push_back(i);
+  }
+  EXPECT_GT(near, cells.size() - expected.size() + 100) << "normals decide";
+  for (const unsigned threads : {1u, 2u, 5u})
+    EXPECT_EQ(cellsAwayFrom(cells, empty, kDistance, threads), expected) << threads;
 }
 
 TEST(Dissertation, ADatabaseOfOneModelHasNoRival)
