@@ -49,6 +49,7 @@ set(CPACK_DEBIAN_TOOLS_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_DEPENDS "${library_package} (= ${version})")
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SUGGESTS xvfb)
 set(CPACK_DEBIAN_TOOLS_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS_PRIVATE_DIRS ${CMAKE_LIBRARY_OUTPUT_DIRECTORY})
 string(CONCAT CPACK_DEBIAN_TOOLS_DESCRIPTION "${method}"
   "This package holds the programs: training, classification and search\n"
   "of single objects, interpretation and generation of scenes, viewing.")
