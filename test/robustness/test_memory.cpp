@@ -103,7 +103,7 @@ TEST(Memory, ModelsPerBinAndMember)
     copy.label += std::to_string(i);
     database.add(std::move(copy));
   }
-  expectAtMost(64, "HistogramClassifier, per bin and member", 2401 * 100,
+  expectAtMost(32, "HistogramClassifier, per bin and member", 2401 * 100,
                [&] { return std::make_unique<HistogramClassifier>(database); });
   expectAtMost(20, "ModelSearch, per bin and member", 2401 * 100,
                [&] { return std::make_unique<ModelSearch>(database); });
@@ -119,7 +119,7 @@ TEST(Memory, OnlineScenesPerCell)
   OnlineSceneInterpreter counted(database, parameters);
   counted.addScan(*cloud, Eigen::Vector3f(0, 0, 5));
   const auto cells = static_cast<double>(counted.cells().size());
-  expectAtMost(1000, "OnlineSceneInterpreter, per cell", cells, [&] {
+  expectAtMost(600, "OnlineSceneInterpreter, per cell", cells, [&] {
     auto online = std::make_unique<OnlineSceneInterpreter>(database, parameters);
     online->addScan(*cloud, Eigen::Vector3f(0, 0, 5));
     return online;
@@ -129,5 +129,5 @@ TEST(Memory, OnlineScenesPerCell)
 TEST(Memory, PoseModels)
 {
   const SurfletSet cup = sampleShape(*shapeByName("cup"), 20000, 1);
-  expectAtMost(60e6, "PoseModel", 1, [&] { return PoseModel::train("cup", cup); });
+  expectAtMost(8e6, "PoseModel", 1, [&] { return PoseModel::train("cup", cup); });
 }
