@@ -70,7 +70,7 @@ TEST(Memory, RegionSearchPerPoint)
       {Search::Octree, "region search, octree"},
       {Search::AVL, "region search, AVL"}};
   for (const auto& [backend, name] : backends)
-    expectAtMost(backend == Search::Linear ? 24 : 200, name, 200000, [&, b = backend] {
+    expectAtMost(backend == Search::Linear ? 24 : 80, name, 200000, [&, b = backend] {
       auto search = std::make_unique<Search>(b);
       search->setInputCloud(cloud);
       return search;
