@@ -45,7 +45,7 @@ public:
   add(std::uint32_t i, std::uint32_t j, PairBlock& block) const
   {
     const auto f = computePairFeature(surflets_[i], surflets_[j]);
-    if (!f)
+    if (!f || !std::isfinite(static_cast<float>(f->delta))) // too long for the output
       ++block.rejected;
     else if (f->delta <= longest_)
       block.signatures.push_back(signature(*f, i, j));

@@ -27,8 +27,12 @@ allIndices(std::size_t n)
   return all;
 }
 
-/** \brief The finite points of a cloud. PCL's normal estimation looks at is_dense only, and its
- * search aborts the process on a point that is not finite in a cloud that claims to be dense. */
+/** \brief Squares of coordinates up to here are finite in single precision. */
+constexpr float kFarthest = 1e18F;
+
+/** \brief The usable points of a cloud. PCL's normal estimation looks at is_dense only, and its
+ * search aborts the process on a point that is not finite in a cloud that claims to be dense, and
+ * on coordinates whose sum is not finite. */
 struct FinitePoints {
   Points points;
   pcl::Indices indices; ///< in the cloud
@@ -38,7 +42,8 @@ struct FinitePoints {
   explicit FinitePoints(const pcl::PointCloud<PointT>& cloud)
   {
     for (std::size_t i = 0; i < cloud.size(); ++i) {
-      if (!std::isfinite(cloud[i].x) || !std::isfinite(cloud[i].y) || !std::isfinite(cloud[i].z)) {
+      const auto usable = [](float c) { return std::abs(c) <= kFarthest; }; // not NaN either
+      if (!usable(cloud[i].x) || !usable(cloud[i].y) || !usable(cloud[i].z)) {
         ++left_out;
         continue;
       }

@@ -134,7 +134,7 @@ TEST_F(FullDisks, AnInputIsNotOverwritten)
   makeShapes();
   fs::create_symlink(path("ball.pcd"), path("link.pcd"));
   const std::string before = readFile(path("ball.pcd"));
-  for (const std::string out : {path("ball.pcd"), path("link.pcd"), path("./ball.pcd")}) {
+  for (const auto& out : {path("ball.pcd"), path("link.pcd"), path("./ball.pcd")}) {
     EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), out}), 2, {out, "named twice"}));
     EXPECT_TRUE(
         ended(run("reduce", {path("ball.pcd"), out, "-leaf", "0.01"}), 2, {out, "named twice"}));

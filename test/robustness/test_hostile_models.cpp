@@ -92,8 +92,7 @@ TEST_F(HostileModels, PairFeatures)
       const std::size_t m = usable(*cloud),
                         most = pairs > 0 ? pairs : m * (m - std::min(m, 1UL)) / 2;
       EXPECT_EQ(out.size(), std::size_t{out.width} * out.height) << name;
-      if (pairs == 0)
-        EXPECT_EQ(out.size() + feature.getNumberOfRejectedPairs(), most) << name;
+      EXPECT_TRUE(pairs > 0 || out.size() + feature.getNumberOfRejectedPairs() == most) << name;
       EXPECT_LE(out.size(), most) << name;
       for (const auto& p : out) {
         ASSERT_TRUE(std::isfinite(p.alpha) && std::abs(p.beta) <= 1 && std::abs(p.gamma) <= 1)
@@ -133,8 +132,13 @@ TEST_F(HostileModels, TrainedModels)
       trainer.setUnevenDensity(treatment);
       expectModelOrError(name, [&] { return trainer.train("x", set); });
     }
-    expectModelOrError(name + " for scenes",
-                       [&] { return trainForScenes(quickTrainer(), "x", set, 0.1); });
+    try {
+      EXPECT_EQ(trainForScenes(quickTrainer(), "x", set, 0.1).problem(), "") << name;
+    }
+    catch (const TrainingError&) {
+    }
+    catch (const std::invalid_argument&) { // the leaf does not go with the extent
+    }
   }
 }
 

@@ -8,8 +8,10 @@
 #include "pcl_surflet/octree_region_search.h"
 #include "pcl_surflet/online_scene_interpreter.h"
 #include "pcl_surflet/pose_estimator.h"
+#include "pcl_surflet/recognition/histogram_model_trainer.h"
 #include "pcl_surflet/scene_interpreter.h"
 
+#include <pcl/common/point_tests.h>
 #include <pcl/console/print.h>
 
 #include <gtest/gtest.h>
@@ -55,8 +57,9 @@ expectIndices(pcl::Indices found, std::size_t size, const std::string& name)
 {
   std::sort(found.begin(), found.end());
   EXPECT_TRUE(std::adjacent_find(found.begin(), found.end()) == found.end()) << name;
-  if (!found.empty())
-    EXPECT_TRUE(found.front() >= 0 && static_cast<std::size_t>(found.back()) < size) << name;
+  EXPECT_TRUE(found.empty() ||
+              (found.front() >= 0 && static_cast<std::size_t>(found.back()) < size))
+      << name;
 }
 
 /** \brief Points within the radius, by the formula that the class documents. */
@@ -67,7 +70,7 @@ bruteForce(const HostileCloud& cloud, const pcl::PointNormal& q, double radius)
   const auto squared = static_cast<float>(radius) * static_cast<float>(radius);
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     const float dx = cloud[i].x - q.x, dy = cloud[i].y - q.y, dz = cloud[i].z - q.z;
-    if (pcl::isXYZFinite(cloud[i]) && (dx * dx + dy * dy) + dz * dz <= squared)
+    if (pcl::isFinite(cloud[i]) && (dx * dx + dy * dy) + dz * dz <= squared)
       found.push_back(static_cast<pcl::index_t>(i));
   }
   return found;
@@ -92,7 +95,7 @@ TEST_F(HostileScenes, RegionSearch)
           ASSERT_EQ(found.size(), static_cast<std::size_t>(n)) << name;
           ASSERT_EQ(squared.size(), found.size()) << name;
           expectIndices(found, cloud->size(), name);
-          if (pcl::isXYZFinite(q) && radius >= 0.3 && radius < 1e10) { // squares are normal numbers
+          if (pcl::isFinite(q) && radius >= 0.3 && radius < 1e10) { // squares are normal numbers
             std::sort(found.begin(), found.end());
             ASSERT_EQ(found, bruteForce(*cloud, q, radius)) << name << ", radius " << radius;
           }
@@ -138,7 +141,7 @@ TEST_F(HostileScenes, MeanSurflets)
       EXPECT_LE(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), cloud->size())
           << name;
       for (const auto& p : out)
-        EXPECT_TRUE(pcl::isXYZFinite(p) && std::abs(p.getNormalVector3fMap().norm() - 1) < 1e-3F)
+        EXPECT_TRUE(pcl::isFinite(p) && std::abs(p.getNormalVector3fMap().norm() - 1) < 1e-3F)
             << name << ", leaf " << leaf;
     }
 }
@@ -157,8 +160,7 @@ TEST_F(HostileScenes, InterpretedScenes)
         const auto objects = interpreter.interpret();
         for (const auto& object : objects)
           expectIndices(object.indices, cloud->size(), name);
-        if (objects.empty())
-          EXPECT_NE(interpreter.getDiagnostics().reason, "") << name;
+        EXPECT_TRUE(!objects.empty() || !interpreter.getDiagnostics().reason.empty()) << name;
         pcl::PointCloud<pcl::PointXYZL> labelled;
         interpreter.labelCloud(objects, labelled);
         EXPECT_EQ(labelled.size(), cloud->size()) << name;
@@ -200,10 +202,9 @@ TEST_F(HostileScenes, Poses)
     const auto poses = estimator.estimate(detections);
     EXPECT_TRUE(poses.empty() || poses.size() == 2) << name;
     for (const auto& pose : poses)
-      if (pose.status == PoseStatus::Found)
-        EXPECT_TRUE(toIsometry(pose.motion).matrix().allFinite()) << name;
-      else
-        EXPECT_NE(pose.reason, "") << name;
+      EXPECT_TRUE(pose.status == PoseStatus::Found ? toIsometry(pose.motion).matrix().allFinite()
+                                                   : !pose.reason.empty())
+          << name;
     try {
       PoseModel::train("x", toSurflets(*cloud).surflets);
     }
@@ -239,6 +240,8 @@ TEST_F(HostileScenes, HugeClouds)
   interpreter.setInputCloud(cloud);
   interpreter.setDatabase(database());
   const auto objects = interpreter.interpret();
-  ASSERT_EQ(objects.size(), 1U) << interpreter.getDiagnostics().reason;
-  EXPECT_GT(objects[0].indices.size(), n * 9 / 10);
+  std::size_t found_points = 0;
+  for (const auto& object : objects)
+    found_points += object.indices.size();
+  EXPECT_GT(found_points, n * 9 / 10) << interpreter.getDiagnostics().reason;
 }

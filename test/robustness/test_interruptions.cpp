@@ -108,16 +108,16 @@ private:
 
 TEST_F(Interruptions, AKilledWriterLeavesTheOldFileOrTheNew)
 {
-  const std::string file = path("file"), old(3000000, 'a'), fresh(3000000, 'b');
+  const std::string file = path("file"), old(1000000, 'a'), fresh(1000000, 'b');
   ASSERT_EQ(detail::replaceFile(file, old), "");
   int left_behind = 0;
-  for (int i = 0; i < 20; ++i) {
+  for (int i = 0; i < 8; ++i) {
     const pid_t child = ::fork();
     if (child == 0)
       for (;;)
         for (const auto* content : {&fresh, &old})
           detail::replaceFile(file, *content);
-    ::usleep(static_cast<useconds_t>(3000 + 1700 * i)); // somewhere in the middle
+    ::usleep(static_cast<useconds_t>(3000 + 4100 * i)); // somewhere in the middle
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
     const std::string content = contentOf(file);
