@@ -22,7 +22,8 @@ PCL_SURFLET_API SceneSensing sensingFor(const SceneItem& item, double leaf);
  * opposite one; all once more without the foot of what stands upright (z up): flat surfaces near
  * the bottom are taken for what carries the object. With a ring of 24 that is 19 histograms, 37 for
  * objects with a foot, of 10 kB each at 7,7,7,7. Views that show too little are left out. Nothing
- * is learned of surfaces that no sensor sees: the bottom, the inside of a vase.
+ * is learned of surfaces that no sensor sees: the bottom, the inside of a vase. But where the
+ * middle of the whole surface is, seen from where the views are, becomes HistogramModel::centre.
  *
  * \param trainer resolution and role of the model
  * \param item the object as it stands, with a mesh

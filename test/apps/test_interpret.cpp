@@ -119,6 +119,12 @@ TEST_F(Interpret, SaysWhyNothingIsFound)
                                      "-empty", path("e.pcd"), "-leaf", "0.008", path("e.pcd")});
   ASSERT_TRUE(ended(r, 0, {}));
   EXPECT_NE(r.out.find("nothing found: all points are background"), std::string::npos) << r.out;
+  const AppRun strict =
+      run("interpret", {"-database", path("db.pcd"), "-background", "exclude", "-empty",
+                        path("e.pcd"), "-leaf", "0.008", "-min_confidence", "1", path("s.pcd")});
+  ASSERT_TRUE(ended(strict, 0, {"left out 2", "-min_confidence"}));
+  EXPECT_NE(strict.out.find("nothing found: nothing is sure enough"), std::string::npos)
+      << strict.out;
 }
 
 // VTK and Mesa leak, and reserve what sanitisers count.
