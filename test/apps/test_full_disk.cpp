@@ -84,7 +84,7 @@ TEST_F(FullDisks, ADatabaseKeepsItsModels)
                {"-database", path("db.pcd"), "-pairs", "1000", "-label", "new", path("ball.pcd")});
   }();
   EXPECT_TRUE(ended(r, 2, {path("db.pcd")}));
-  EXPECT_EQ(readFile(path("db.pcd")), before);
+  EXPECT_TRUE(readFile(path("db.pcd")) == before);
   EXPECT_EQ(files(), there) << "no temporary and no lock is left";
 }
 
@@ -138,7 +138,7 @@ TEST_F(FullDisks, AnInputIsNotOverwritten)
     EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), out}), 2, {out, "named twice"}));
     EXPECT_TRUE(
         ended(run("reduce", {path("ball.pcd"), out, "-leaf", "0.01"}), 2, {out, "named twice"}));
-    EXPECT_EQ(readFile(path("ball.pcd")), before) << out;
+    EXPECT_TRUE(readFile(path("ball.pcd")) == before) << out;
   }
   // What is there from before, but named once, is replaced.
   EXPECT_TRUE(ended(run("feature", {path("ball.pcd"), path("h.pcd")}), 0, {}));
