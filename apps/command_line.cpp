@@ -1,5 +1,7 @@
 #include "app_common.h"
 
+#include "pcl_surflet/config.h"
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
