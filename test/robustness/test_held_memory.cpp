@@ -58,7 +58,7 @@ modelOf(const char* name, int intervals)
 
 } // namespace
 
-TEST(Memory, RegionSearchPerPoint)
+TEST(HeldMemory, RegionSearchPerPoint)
 {
   using Search = OctreeRegionSearch<pcl::PointXYZ>;
   auto cloud = pcl::make_shared<pcl::PointCloud<pcl::PointXYZ>>();
@@ -77,7 +77,7 @@ TEST(Memory, RegionSearchPerPoint)
     });
 }
 
-TEST(Memory, ReductionPerPoint)
+TEST(HeldMemory, ReductionPerPoint)
 {
   const auto cloud = unitBall(200000);
   expectAtMost(10, "mean surflets, held after filter()", 200000, [&] {
@@ -92,7 +92,7 @@ TEST(Memory, ReductionPerPoint)
                [&] { return std::make_unique<ConvertedSurflets>(toSurflets(*cloud)); });
 }
 
-TEST(Memory, ModelsPerBinAndMember)
+TEST(HeldMemory, ModelsPerBinAndMember)
 {
   const HistogramModel model = modelOf("torus", 7);
   expectAtMost(5, "HistogramModel, per bin and member", 2401 * 100,
@@ -109,7 +109,7 @@ TEST(Memory, ModelsPerBinAndMember)
                [&] { return std::make_unique<ModelSearch>(database); });
 }
 
-TEST(Memory, OnlineScenesPerCell)
+TEST(HeldMemory, OnlineScenesPerCell)
 {
   ModelDatabase database;
   database.add(modelOf("torus", 7));
@@ -126,7 +126,7 @@ TEST(Memory, OnlineScenesPerCell)
   });
 }
 
-TEST(Memory, PoseModels)
+TEST(HeldMemory, PoseModels)
 {
   const SurfletSet cup = sampleShape(*shapeByName("cup"), 20000, 1);
   expectAtMost(8e6, "PoseModel", 1, [&] { return PoseModel::train("cup", cup); });
