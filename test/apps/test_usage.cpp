@@ -1,6 +1,8 @@
 // Command lines, right and wrong.
 #include "app_runner.h"
 
+#include "pcl_surflet/config.h"
+
 using namespace pcl_surflet::test;
 
 namespace {
