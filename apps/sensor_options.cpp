@@ -11,7 +11,7 @@ addPlaces(CommandLine& line, ViewOptions& v)
 {
   addChoice<ViewSet>(line, "-views",
                      "what a virtual depth camera sees from there, in place of complete surfaces "
-                     "(ring24: every 30 degrees, two cameras; pass: along x and back on the other "
+                     "(ring24 every 30 degrees by two cameras, pass along x and back on the other "
                      "side)",
                      v.views,
                      {{"one", ViewSet::One},

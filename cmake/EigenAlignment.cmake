@@ -1,4 +1,5 @@
-# How Eigen aligns memory in the PCL that is installed: with -mavx or -march=native Eigen aligns and
+# How Eigen aligns memory in the PCL that is installed: with -mavx, -march=native or
+# -fsanitize=address Eigen aligns and
 # frees differently, and objects that cross to libraries built without crash. So everything that
 # shares clouds with this PCL must take PCL's values, whatever its own flags. They follow from the
 # options that PCL asks its users to compile with, which are those it was built with.

@@ -11,8 +11,8 @@
 
 #include <utility>
 
-#define PCL_SURFLET_TEXT_OF(x) #x
-#define PCL_SURFLET_TEXT(x) PCL_SURFLET_TEXT_OF(x)
+#define PCL_SURFLET_TEXT_OF(x) #x                  ///< for PCL_SURFLET_TEXT()
+#define PCL_SURFLET_TEXT(x) PCL_SURFLET_TEXT_OF(x) ///< what the macro x stands for, as a text
 
 // clang-format breaks the texts into single words.
 // clang-format off

@@ -56,6 +56,7 @@ public:
   using typename Base::IndicesConstPtr;
   using typename Base::PointCloud;
   using typename Base::PointCloudConstPtr;
+  /** \brief void up to PCL 1.13, then bool. */
   using SetInputCloudResult = compat::SetInputCloudResult<Base>;
 
   /** \brief Representations; which to take: doc/space.md. */

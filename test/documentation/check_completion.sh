@@ -24,7 +24,7 @@ expect()
 expect '-database' pcl_surflet_train -da
 expect '--help --version' pcl_surflet_info --
 expect '--help --version -csv -h -version' pcl_surflet_info -
-expect 'all24 one ring24 two' pcl_surflet_generate -views ''
+expect 'all24 one pass ring24 two' pcl_surflet_generate -views ''
 expect 'ring24' pcl_surflet_generate -views r
 expect 'exclude ignore model' pcl_surflet_interpret -background ''
 expect 'ignore model' pcl_surflet_replay -background ''

@@ -60,7 +60,8 @@ private:
 /** \brief One of several shares of the pairs that a call would count, for counting in several
  * processes: the histograms of shares 0 to parts - 1, merged, are the histogram of the whole. */
 struct PairShare {
-  std::size_t part = 0, parts = 1;
+  std::size_t part = 0;  ///< which share
+  std::size_t parts = 1; ///< of how many
 };
 
 /** \brief Features of all m(m-1)/2 pairs [Wahl 2007, Eq. 2.19]; each unordered pair once.

@@ -21,9 +21,9 @@ using CentreWeights = std::array<double, 7>;
  * higher than that of a thing with a foot that is not seen. Where it should be, relative to the
  * cells' middle x, is written as a sum of vectors that turn and move with the cells, so nothing
  * need be known of the sensor or of the object's posture. With d = (cell - x) / r_mean, n its
- * normal and <.> the mean over the cells:
+ * normal and E[.] the mean over the cells:
  *
- * <n>, <n |d|>, <d |d|^2>, <n (n d)>, <d (n d)>, <d (n d)^2>, <d (n <n>)>,
+ * E[n], E[n |d|], E[d |d|^2], E[n (n d)], E[d (n d)], E[d (n d)^2], E[d (n E[n])],
  *
  * times r_mean. Their weights are learned for each object from its views, by least squares: see
  * trainForSensors(). */
@@ -39,7 +39,10 @@ public:
   CentreWeights weights() const;
 
   /** \brief The expected centroid of the object, at most 2 r_mean from the middle of its cells.
-   * \param cells a scene \param of indices of the object's cells; if empty, the origin */
+   * \param cells a scene
+   * \param of indices of the object's cells; if empty, the guess is the origin
+   * \param r_mean of the model, > 0
+   * \param weights of the model */
   static std::array<double, 3> guess(const SurfletSet& cells, const std::vector<std::uint32_t>& of,
                                      double r_mean, const CentreWeights& weights);
 

@@ -104,6 +104,7 @@ public:
   OnlineScan addScan(const SurfletSet& surflets);
   /** \brief The same, and cells that the scan has seen through vanish: OnlineParameters::behind.
    * Positions without usable normal count as ends of rays.
+   * \param surflets in the frame of the scene, normals towards the sensor
    * \param sensor where it was, in the frame of the scene
    * \throws std::invalid_argument if that is not finite */
   OnlineScan addScan(const SurfletSet& surflets, const std::array<double, 3>& sensor);

@@ -241,6 +241,9 @@ interpretByExplanation(const SurfletSet& cells, const ModelDatabase& database,
  *
  * Regardless of where they look, what stands on a table would lose its foot.
  *
+ * \param cells of the scene
+ * \param background surflets of the scene without objects, in the same frame
+ * \param distance in their unit, usually one cell
  * \param threads 0: all; does not change the result
  * \throws std::invalid_argument if \p distance is not positive and finite */
 PCL_SURFLET_API std::vector<std::uint32_t> cellsAwayFrom(const SurfletSet& cells,

@@ -29,7 +29,6 @@ struct CentreLesson {
  * \param leaf edge of the cells, as in the scenes to come; positive and finite
  * \param seed of the orientations
  * \param threads 0: all; does not change the result
- * \param lesson if not null: told the cells that support the view, for the guess of the centre
  * \throws TrainingError if fewer than 30 cells support the model: take smaller cells
  * \throws std::invalid_argument for an unusable leaf */
 PCL_SURFLET_API HistogramModel trainForScenes(const HistogramModelTrainer& trainer,
