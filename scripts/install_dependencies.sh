@@ -7,7 +7,7 @@ packages=(
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
   libboost-mpi-dev openmpi-bin  # several processes; without them one process does it all
   libgtest-dev libbenchmark-dev libnanoflann-dev
-  pkg-config clang lintian fakeroot file  # headers, consumers and packages are tested with them
+  pkg-config  # consumers are tested with it
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display
 )
@@ -17,7 +17,8 @@ for option in "$@"; do
   case $option in
     --with-opencv) packages+=(libopencv-contrib-dev) ;;
     --with-checks)
-      packages+=(clang clang-format clang-tidy doxygen graphviz dpkg-dev fakeroot lintian help2man)
+      packages+=(clang clang-format clang-tidy doxygen graphviz dpkg-dev fakeroot file lintian
+        help2man)
       ;;
     *) echo "Unknown option $option" >&2; exit 1 ;;
   esac

@@ -3,7 +3,7 @@
 # Compiled as the preset ci does, so that a compiler cache serves both.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_dependencies.sh
+scripts/install_dependencies.sh --with-checks
 build=build/package
 umask 022
 rm -rf $build/packages

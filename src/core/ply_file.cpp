@@ -1,4 +1,5 @@
 #include "mesh_readers.h"
+#include "off_scanner.h"
 #include "pcl_surflet/core/mesh_file.h"
 #include "ply_header.h"
 
@@ -95,8 +96,9 @@ public:
   [[noreturn]] void
   fail(const std::string& cause) const
   {
-    throw MeshFileError(path_ + ", element '" + element_->name + "' " + std::to_string(number_) +
-                        ": " + cause + "; correct it or export the file again");
+    throw MeshFileError(path_ + ", element " + forMessage(element_->name) + " " +
+                        std::to_string(number_) + ": " + cause +
+                        "; correct it or export the file again");
   }
 
 private:
@@ -115,8 +117,8 @@ private:
   failAtEnd() const
   {
     throw MeshFileError(path_ + ": the file ends after " + std::to_string(number_) + " of the " +
-                        std::to_string(element_->count) + " '" + element_->name +
-                        "' elements that its header claims; it is truncated, export it again");
+                        std::to_string(element_->count) + " " + forMessage(element_->name) +
+                        " elements that its header claims; it is truncated, export it again");
   }
 
   std::string path_;

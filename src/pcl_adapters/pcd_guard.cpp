@@ -1,5 +1,7 @@
 #include "pcl_adapters/pcd_guard.h"
 
+#include "core/off_scanner.h"
+
 #include <algorithm>
 #include <charconv>
 #include <cstdint>
@@ -98,7 +100,7 @@ parseLine(const std::string& text, Header& header)
   else if (key == "DATA")
     good = static_cast<bool>(line >> header.data);
   else if (key != "VERSION" && key != "TYPE" && key != "VIEWPOINT")
-    return "it has an unknown header entry '" + key.substr(0, 40) + "'; is it a PCD file?";
+    return "it has an unknown header entry " + forMessage(key) + "; is it a PCD file?";
   return good ? "" : "its header entry " + key + " is damaged";
 }
 
@@ -140,6 +142,27 @@ headerProblem(const Header& h)
   return {};
 }
 
+/** \brief PCL reads on behind DATA for as long as lines look like entries of a header, and takes
+ * what they say: data that begins like one would change the fields under its feet. */
+std::string
+bodyProblem(std::istream& in)
+{
+  static const char* const kEntries[] = {"VERSION", "FIELDS",    "COLUMNS", "SIZE",
+                                         "TYPE",    "COUNT",     "WIDTH",   "HEIGHT",
+                                         "POINTS",  "VIEWPOINT", "DATA"};
+  std::string line;
+  while (std::getline(in, line)) {
+    const auto begin = line.find_first_not_of(" \t\r\v\f");
+    if (begin == std::string::npos || line[begin] == '#')
+      continue; // PCL reads the next line
+    for (const std::string entry : kEntries)
+      if (line.compare(begin, entry.size(), entry) == 0)
+        return "its data begins with the header entry " + entry;
+    break;
+  }
+  return {};
+}
+
 std::string
 truncated(std::uint64_t needed, std::uint64_t there)
 {
@@ -177,7 +200,7 @@ dataProblem(std::istream& in, const Header& h, std::uint64_t file_size)
   if (h.data == "binary_compressed")
     return compressedProblem(in, h, left);
   if (h.data != "binary" && h.data != "ascii")
-    return "its data kind '" + h.data.substr(0, 40) + "' is unknown";
+    return "its data kind " + forMessage(h.data) + " is unknown";
   return {};
 }
 
@@ -207,6 +230,10 @@ pcdProblem(const std::string& path)
     return problem;
   if (auto problem = headerProblem(header); !problem.empty())
     return problem;
+  if (auto problem = bodyProblem(in); !problem.empty())
+    return problem;
+  in.clear();
+  in.seekg(static_cast<std::streamoff>(header.end));
   return dataProblem(in, header, size);
 }
 

@@ -387,6 +387,12 @@ TEST_F(SurfaceFiles, PointsMustBeUsable)
   expectRefused("x.pcd", pcdHeader("2", "ascii") + "nan nan nan 0 0 1\n1 2 3 0 0 0\n",
                 "none of its 2 points");
   expectRefused("x.pcd", pcdHeader("0", "ascii"), "no points");
+  // PCL would take the entry behind DATA for one of the header; found by fuzzing.
+  expectRefused("x.pcd", pcdHeader("2", "binary") + "\nCOLUMNS a b" + std::string(48, '\0'),
+                "header entry COLUMNS");
+  // A message ends at a zero; found by fuzzing.
+  expectRefused("x.pcd", std::string("VERSION 0.7\n\0\0ODD", 17) + pcdHeader("1", "ascii"),
+                "unknown header entry '??ODD");
   std::string strange = pcdHeader("1", "ascii") + "1 2 3 0 0 1\n";
   strange.replace(strange.find("FIELDS x y z"), 12, "FIELDS a b c");
   expectRefused("x.pcd", strange, "x, y, z");

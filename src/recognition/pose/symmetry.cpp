@@ -103,10 +103,12 @@ axesOf(const ModelData& model, std::uint64_t seed)
   std::stable_sort(rated.begin(), rated.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });
   std::vector<Axis> axes;
-  for (const auto& [share, axis] : rated)
+  for (const auto& entry : rated) {
+    const Axis& axis = entry.second;
     if (axes.size() < kMostAxes &&
         std::none_of(axes.begin(), axes.end(), [&](const Axis& a) { return same(a, axis); }))
       axes.push_back(axis);
+  }
   return axes;
 }
 
