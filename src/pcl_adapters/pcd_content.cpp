@@ -10,16 +10,39 @@
 namespace pcl_surflet {
 namespace detail {
 
+namespace {
+
+/** \brief Does PCL understand the header as it is written? A line of blanks ends it for PCL, which
+ * then reads points of no fields and crashes. */
+bool
+understands(pcl::PCDReader& reader, const std::string& path, const PcdClaim& claim)
+{
+  PcdContent content;
+  int version = 0, kind = 0;
+  unsigned end = 0;
+  if (reader.readHeader(path, content.cloud, content.origin, content.orientation, version, kind,
+                        end) < 0)
+    return false;
+  const auto& cloud = content.cloud;
+  return cloud.fields.size() == claim.fields && cloud.point_step == claim.step &&
+         content.size() == claim.points && end == claim.end;
+}
+
+} // namespace
+
 std::string
 readPcd(const std::string& path, PcdContent& content)
 {
-  if (auto problem = pcdProblem(path); !problem.empty())
+  PcdClaim claim;
+  if (auto problem = pcdProblem(path, claim); !problem.empty())
     return problem;
   bool read = false;
   int version = 0;
   try {
-    read = pcl::PCDReader().read(path, content.cloud, content.origin, content.orientation,
-                                 version) >= 0;
+    pcl::PCDReader reader;
+    if (!understands(reader, path, claim))
+      return "its header is not understood: it may have a line of blanks, or a field twice";
+    read = reader.read(path, content.cloud, content.origin, content.orientation, version) >= 0;
   }
   catch (const std::bad_alloc&) {
     return "it does not fit into memory";

@@ -207,7 +207,7 @@ dataProblem(std::istream& in, const Header& h, std::uint64_t file_size)
 } // namespace
 
 std::string
-pcdProblem(const std::string& path)
+pcdProblem(const std::string& path, PcdClaim& claim)
 {
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
@@ -232,6 +232,7 @@ pcdProblem(const std::string& path)
     return problem;
   if (auto problem = bodyProblem(in); !problem.empty())
     return problem;
+  claim = {header.fields, header.points, header.step(), header.end};
   in.clear();
   in.seekg(static_cast<std::streamoff>(header.end));
   return dataProblem(in, header, size);

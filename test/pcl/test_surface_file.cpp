@@ -390,6 +390,9 @@ TEST_F(SurfaceFiles, PointsMustBeUsable)
   // PCL would take the entry behind DATA for one of the header; found by fuzzing.
   expectRefused("x.pcd", pcdHeader("2", "binary") + "\nCOLUMNS a b" + std::string(48, '\0'),
                 "header entry COLUMNS");
+  // A line of blanks ends the header for PCL, which then crashed; found by fuzzing.
+  expectRefused("x.pcd", " \n" + pcdHeader("1", "binary") + std::string(24, '\0'),
+                "not understood");
   // A message ends at a zero; found by fuzzing.
   expectRefused("x.pcd", std::string("VERSION 0.7\n\0\0ODD", 17) + pcdHeader("1", "ascii"),
                 "unknown header entry '??ODD");
