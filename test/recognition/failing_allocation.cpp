@@ -24,6 +24,13 @@ operator new(std::size_t size)
   throw std::bad_alloc();
 }
 
+/** \brief Sanitizers bring one of their own, whose memory is not malloc()'s. */
+void*
+operator new(std::size_t size, const std::nothrow_t&) noexcept
+{
+  return std::malloc(size > 0 ? size : 1);
+}
+
 void
 operator delete(void* memory) noexcept
 {
