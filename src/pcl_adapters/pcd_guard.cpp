@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <sstream>
 #include <vector>
@@ -18,7 +19,13 @@ namespace {
 constexpr std::size_t kLongestHeader = 1 << 20;
 constexpr std::uint64_t kLargestCount = 1 << 26;
 
+/** \brief The entries of a header in the order that the format prescribes. */
+const char* const kEntries[] = {"VERSION", "FIELDS", "SIZE",      "TYPE",   "COUNT",
+                                "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
+
 struct Header {
+  std::size_t next = 0; ///< first entry that may come
+  std::size_t types = 0;
   std::size_t fields = 0;
   std::vector<std::uint64_t> sizes, counts;
   std::uint64_t width = 0, height = 1;
@@ -74,6 +81,22 @@ parseOne(std::istringstream& line, std::uint64_t& value)
   return (line >> token) && parseNumber(token, value);
 }
 
+/** \brief Each entry once, in order: PCL writes beyond its memory if FIELDS comes again behind
+ * SIZE. */
+std::string
+orderProblem(const std::string& key, Header& header)
+{
+  const auto* const entry =
+      std::find(std::begin(kEntries), std::end(kEntries), key == "COLUMNS" ? "FIELDS" : key);
+  if (entry == std::end(kEntries))
+    return "it has an unknown header entry " + forMessage(key) + "; is it a PCD file?";
+  const auto number = static_cast<std::size_t>(entry - std::begin(kEntries));
+  if (number < header.next)
+    return "its header entry " + key + " comes twice or too late";
+  header.next = number + 1;
+  return {};
+}
+
 /** \brief Takes in one header line. \return what is wrong with it */
 std::string
 parseLine(const std::string& text, Header& header)
@@ -82,6 +105,8 @@ parseLine(const std::string& text, Header& header)
   std::string key, token;
   if (!(line >> key) || key[0] == '#')
     return {};
+  if (auto problem = orderProblem(key, header); !problem.empty())
+    return problem;
   bool good = true;
   if (key == "FIELDS" || key == "COLUMNS") {
     while (line >> token)
@@ -99,8 +124,9 @@ parseLine(const std::string& text, Header& header)
     header.has_points = good = parseOne(line, header.points);
   else if (key == "DATA")
     good = static_cast<bool>(line >> header.data);
-  else if (key != "VERSION" && key != "TYPE" && key != "VIEWPOINT")
-    return "it has an unknown header entry " + forMessage(key) + "; is it a PCD file?";
+  else if (key == "TYPE")
+    while (line >> token)
+      ++header.types;
   return good ? "" : "its header entry " + key + " is damaged";
 }
 
@@ -126,10 +152,11 @@ readHeader(std::istream& in, Header& header)
 std::string
 headerProblem(const Header& h)
 {
-  if (h.fields == 0 || h.sizes.size() != h.fields || h.counts.size() != h.fields)
+  if (h.fields == 0 || h.sizes.size() != h.fields || h.counts.size() != h.fields ||
+      h.types != h.fields)
     return "its header names " + std::to_string(h.fields) + " fields, but " +
-           std::to_string(h.sizes.size()) + " sizes and " + std::to_string(h.counts.size()) +
-           " counts";
+           std::to_string(h.sizes.size()) + " sizes, " + std::to_string(h.types) + " types and " +
+           std::to_string(h.counts.size()) + " counts";
   for (std::size_t i = 0; i < h.fields; ++i)
     if ((h.sizes[i] != 1 && h.sizes[i] != 2 && h.sizes[i] != 4 && h.sizes[i] != 8) ||
         h.counts[i] > kLargestCount)
@@ -147,9 +174,6 @@ headerProblem(const Header& h)
 std::string
 bodyProblem(std::istream& in)
 {
-  static const char* const kEntries[] = {"VERSION", "FIELDS",    "COLUMNS", "SIZE",
-                                         "TYPE",    "COUNT",     "WIDTH",   "HEIGHT",
-                                         "POINTS",  "VIEWPOINT", "DATA"};
   std::string line;
   while (std::getline(in, line)) {
     const auto begin = line.find_first_not_of(" \t\r\v\f");
@@ -158,6 +182,8 @@ bodyProblem(std::istream& in)
     for (const std::string entry : kEntries)
       if (line.compare(begin, entry.size(), entry) == 0)
         return "its data begins with the header entry " + entry;
+    if (line.compare(begin, 7, "COLUMNS") == 0)
+      return "its data begins with the header entry COLUMNS";
     break;
   }
   return {};

@@ -393,6 +393,12 @@ TEST_F(SurfaceFiles, PointsMustBeUsable)
   // A line of blanks ends the header for PCL, which then crashed; found by fuzzing.
   expectRefused("x.pcd", " \n" + pcdHeader("1", "binary") + std::string(24, '\0'),
                 "not understood");
+  // PCL would write beyond its memory; found by fuzzing.
+  const std::string once = pcdHeader("1", "ascii");
+  expectRefused("x.pcd", std::string(once).insert(once.find("WIDTH"), "FIELDS a b c d e f g h i\n"),
+                "FIELDS comes twice");
+  expectRefused("x.pcd", std::string(once).replace(once.find("TYPE F F F"), 10, "TYPE F F"),
+                "types");
   // A message ends at a zero; found by fuzzing.
   expectRefused("x.pcd", std::string("VERSION 0.7\n\0\0ODD", 17) + pcdHeader("1", "ascii"),
                 "unknown header entry '??ODD");
