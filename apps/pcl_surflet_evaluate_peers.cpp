@@ -12,9 +12,11 @@
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/pose_estimator.h"
+#include "pcl_surflet/pose_verification.h"
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -30,6 +32,8 @@ struct Options {
   SceneSensing sensing;
   std::vector<std::string> peers{"ours", "classic_vfh"};
   double presence = 0.5;
+  std::vector<std::string> clutter; ///< things that no peer knows
+  std::uint64_t unknown = 0;        ///< of them present in every scene
   std::uint64_t scenes = 20, tune = 5, seed = 1001, least = 50, limit = 120;
 };
 
@@ -79,14 +83,19 @@ knownObjects(const std::vector<SceneItem>& items, double leaf)
   return known;
 }
 
-/** \brief A method of pcl_surflet_evaluate; ours has poses, too. */
+/** \brief A method of pcl_surflet_evaluate; ours has poses, too, which may be the judge of names.
+ */
 class RecogniserPeer : public Peer {
 public:
   RecogniserPeer(const std::string& name, const std::vector<SceneItem>& items,
                  const std::vector<Known>& known, const RecogniserOptions& o)
-      : known_(known), poses_(name == "ours"),
-        method_(recogniser(poses_ ? "explanation" : name, items, o))
+      : known_(known), poses_(name == "ours" || name == "ours_verified"),
+        verified_(name == "ours_verified")
   {
+    RecogniserOptions own = o;
+    if (verified_)
+      own.explanation.min_fit = VerificationParameters::kProposalFit;
+    method_ = recogniser(poses_ ? "explanation" : name, items, own);
     if (o.sensing)
       for (const auto& place : sensorPoses(o.sensing->views))
         parameters_.viewpoints.push_back(place.position);
@@ -104,13 +113,15 @@ public:
       for (const auto c : d.cells)
         taken[c] = 1;
     for (const auto& d : detections)
-      a.found.push_back(found(d, cells, taken));
+      if (const auto f = found(d, cells, taken))
+        a.found.push_back(*f);
     a.seconds = threadSeconds() - start;
     return a;
   }
 
 private:
-  FoundObject
+  /** \return nothing if the pose refutes the name */
+  std::optional<FoundObject>
   found(const Detection& d, const SurfletSet& cells, const std::vector<char>& taken) const
   {
     FoundObject f;
@@ -124,6 +135,8 @@ private:
     const auto& known = known_[d.model];
     const PoseEstimate e = estimatePose(cluster, known.pose, parameters_,
                                         pointsBeside(cells, taken, cluster, known.pose.diameter()));
+    if (verified_ && !isVerified(e, d.fit))
+      return std::nullopt;
     if (e.status == PoseStatus::Found) {
       f.motion = e.motion;
       f.centre = e.motion.moved(known.centre);
@@ -132,7 +145,7 @@ private:
   }
 
   const std::vector<Known>& known_;
-  bool poses_;
+  bool poses_, verified_;
   std::unique_ptr<Recogniser> method_;
   PoseParameters parameters_;
 };
@@ -211,7 +224,8 @@ private:
 class Study {
 public:
   Study(const std::vector<SceneItem>& items, const Options& o)
-      : items_(items), options_(o), known_(knownObjects(items, o.recogniser.leaf)),
+      : items_(items), clutter_(itemsOf(o.clutter)), options_(o),
+        known_(knownObjects(items, o.recogniser.leaf)),
         empty_(reduceToCells(seenBackground(o.recogniser.scene, o.recogniser.sensing),
                              o.recogniser.leaf)
                    .cells)
@@ -257,7 +271,8 @@ private:
     SceneOptions scene = options_.recogniser.scene;
     scene.seed = seed;
     scene.present = presentOf(items_.size(), options_.presence, seed);
-    const Scene seen = seenScene(items_, {}, scene, options_.recogniser.sensing);
+    scene.clutter = std::min<std::size_t>(options_.unknown, clutter_.size());
+    const Scene seen = seenScene(items_, clutter_, scene, options_.recogniser.sensing);
     Given g;
     const double leaf = options_.recogniser.leaf;
     g.all = withTruth(reduceToTwoSidedCells(seen.surflets, leaf), seen);
@@ -308,6 +323,7 @@ private:
   }
 
   const std::vector<SceneItem>& items_;
+  std::vector<SceneItem> clutter_;
   Options options_;
   std::vector<Known> known_;
   std::vector<JudgedObject> judged_;
@@ -317,7 +333,7 @@ private:
 void
 addOptions(CommandLine& line, Options& o)
 {
-  std::string names = "ours, classic_vfh, classic_esf, exclusion_vfh";
+  std::string names = "ours, ours_verified, classic_vfh, classic_esf, exclusion_vfh";
   for (const auto& name : poseFinderNames())
     names += ", " + name;
   line.option("-peer", "NAME,...", "default ours,classic_vfh: " + names,
@@ -334,6 +350,10 @@ addOptions(CommandLine& line, Options& o)
              99);
   line.real("-presence", "P", "each item is present with this probability, default 0.5", o.presence,
             0, 1);
+  line.option("-clutter", "ITEM,...", "things that no method knows",
+              [&o](const std::string& text) { o.clutter = parts(text, ','); });
+  line.count("-unknown", "N", "things of the clutter in every scene, default all", o.unknown, 0,
+             1000000);
   addArrangement(line, o.recogniser.scene);
   line.real("-density", "D", "points per squared unit, default 470000", o.recogniser.scene.density,
             1e-9, 1e12);
@@ -359,6 +379,8 @@ run(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1000);
+  if (!line.given("-unknown"))
+    o.unknown = o.clutter.size();
   o.recogniser.dissertation.background = BackgroundTreatment::Exclude;
   o.recogniser.dissertation.threads = 1;
   o.sensing.threads = 1;

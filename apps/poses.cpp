@@ -51,6 +51,9 @@ PoseJob::addOptions(CommandLine& line)
   line.option("-viewpoints", "X,Y,Z[:X,Y,Z...]",
               "for -pose: where the sensors were, in the scene's coordinates; default unknown",
               [this](const std::string& text) { viewpoints = viewpointsIn(text); });
+  line.flag("-verify",
+            "for -pose: guesses names more boldly, and leaves out those that their poses refute",
+            verify);
 }
 
 void

@@ -5,6 +5,7 @@
 #include "app_common.h"
 
 #include "pcl_surflet/pose_estimator.h"
+#include "pcl_surflet/pose_verification.h"
 
 #include <array>
 #include <string>
@@ -18,10 +19,17 @@ struct PoseJob {
   std::string directory; ///< of the models; empty: no poses
   std::vector<std::array<double, 3>> viewpoints;
   std::vector<PoseModel> models;
+  bool verify = false; ///< whether poses refute detections
 
   void addOptions(CommandLine& line);
   /** \brief Trains the models. \throws DataError */
   void load();
+  /** \brief The least fit to interpret with. */
+  double
+  minFit() const
+  {
+    return verify ? VerificationParameters::kProposalFit : ExplanationParameters().min_fit;
+  }
   /** \brief One pose per detection, or nothing where none are wanted. */
   std::vector<PoseEstimate> estimate(const pcl::PointCloud<pcl::PointNormal>::ConstPtr& cloud,
                                      const std::vector<SceneDetection>& detections,

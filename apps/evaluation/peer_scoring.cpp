@@ -74,7 +74,7 @@ judge(const CellScene& scene, const std::vector<FoundObject>& found,
 {
   std::vector<char> named(scene.items.size(), 0), centred = named, posed = named;
   for (const auto& item : scene.items)
-    counts.present += item.surflets >= least ? 1 : 0;
+    counts.present += !item.clutter && item.surflets >= least ? 1 : 0;
   ++counts.scenes;
   for (const auto& f : found) {
     JudgedDetection d;

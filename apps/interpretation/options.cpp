@@ -70,8 +70,11 @@ readInterpretOptions(const std::string& program, int argc, char** argv, Interpre
   checkBackground(line, o);
   if (o.method == Method::Dissertation && !line.given("-min_confidence"))
     o.min_confidence = 0; // its confidence is not calibrated
-  if (line.given("-viewpoints") && !line.given("-pose"))
-    throw UsageError("option -viewpoints goes with -pose");
+  for (const char* name : {"-viewpoints", "-verify"})
+    if (line.given(name) && !line.given("-pose"))
+      throw UsageError(std::string("option ") + name + " goes with -pose");
+  if (o.pose.verify && o.method == Method::Dissertation)
+    throw UsageError("option -verify is for -method explanation");
   o.files = line.files();
   return true;
 }

@@ -1,10 +1,9 @@
 #include "interpretation/scene_worker.h"
 
+#include "interpretation/selection.h"
 #include "interpretation/text.h"
 #include "labelled_pcd.h"
 #include "surfaces.h"
-
-#include <algorithm>
 
 namespace pcl_surflet {
 namespace apps {
@@ -60,18 +59,6 @@ objectFiles(const std::string& path, const SurfletSet& scene,
   return files;
 }
 
-/** \return how many */
-std::size_t
-removeDoubtful(double min_confidence, std::vector<SceneDetection>& found)
-{
-  const auto end = std::remove_if(found.begin(), found.end(), [=](const SceneDetection& d) {
-    return d.confidence < min_confidence;
-  });
-  const auto removed = static_cast<std::size_t>(found.end() - end);
-  found.erase(end, found.end());
-  return removed;
-}
-
 } // namespace
 
 SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& o,
@@ -84,7 +71,10 @@ SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& 
   interpreter_.setLeafSize(o.leaf);
   interpreter_.setSeed(o.seed);
   interpreter_.setNumberOfThreads(static_cast<unsigned>(o.threads));
-  interpreter_.setMaximumDetections(o.detections);
+  interpreter_.setMaximumDetections(o.pose.verify ? 0 : o.detections);
+  auto parameters = interpreter_.getParameters();
+  parameters.min_fit = o.pose.minFit();
+  interpreter_.setParameters(parameters);
   ExclusionOptions exclusion;
   exclusion.distance = o.distance;
   interpreter_.setExclusionOptions(exclusion);
@@ -104,12 +94,10 @@ SceneWorker::interpretInto(const std::string& path, InterpretedScene& out)
   const auto& diagnostics = interpreter_.getDiagnostics();
   if (diagnostics.status > SceneStatus::Cancelled)
     throw DataError(diagnostics.reason);
-  const std::size_t doubtful = removeDoubtful(o_.min_confidence, found);
-  if (doubtful > 0)
-    out.notes.push_back(path + ": left out " + std::to_string(doubtful) +
-                        " of a confidence below " + number(o_.min_confidence) +
-                        ", see -min_confidence");
-  const auto poses = o_.pose.estimate(cloud, found, o_.seed);
+  Selection selection(o_, path, out.notes);
+  selection.removeDoubtful(found);
+  auto poses = o_.pose.estimate(cloud, found, o_.seed);
+  selection.verify(found, poses);
   out.found = foundText(path, found, poses, diagnostics, o_.csv);
   if (o_.verbose)
     out.steps = stepsText(o_.method, diagnostics);

@@ -32,13 +32,21 @@ numberOrNothing(double value)
   return std::isnan(value) ? "" : number(value);
 }
 
+/** \brief Of what the viewpoints should see, where that is known; else of what the model's view
+ * shows. */
+double
+coverageOf(const SceneDetection& d, const PoseEstimate* pose)
+{
+  return pose != nullptr && !std::isnan(pose->coverage) ? pose->coverage : d.coverage;
+}
+
 std::string
 csvLine(const std::string& path, const SceneDetection& d, const PoseEstimate* pose)
 {
   std::string line =
       csvField(path) + "," + csvField(d.label) + "," + std::to_string(d.indices.size());
   for (const double v :
-       {d.centre[0], d.centre[1], d.centre[2], d.score, d.fit, d.confidence, d.coverage})
+       {d.centre[0], d.centre[1], d.centre[2], d.score, d.fit, d.confidence, coverageOf(d, pose)})
     line += "," + numberOrNothing(v);
   return line + (pose != nullptr ? poseCsv(*pose) : "") + "\n";
 }
@@ -50,7 +58,8 @@ textLines(const std::string& path, const SceneDetection& d, const PoseEstimate* 
   std::string text =
       formatted("%s: %-16s at %8.4f %8.4f %8.4f, %7zu points, confidence %4.2f", path.c_str(),
                 d.label.c_str(), c[0], c[1], c[2], d.indices.size(), d.confidence);
-  text += std::isnan(d.coverage) ? "\n" : formatted(", coverage %4.2f\n", d.coverage);
+  const double coverage = coverageOf(d, pose);
+  text += std::isnan(coverage) ? "\n" : formatted(", coverage %4.2f\n", coverage);
   if (pose != nullptr)
     text += formatted("%s: %-16s %s\n", path.c_str(), d.label.c_str(), poseText(*pose).c_str());
   return text;

@@ -30,7 +30,7 @@ template <class Archive>
 void
 serialize(Archive& archive, ModelMember& m, unsigned)
 {
-  archive& m.condition& m.histogram& m.features& m.misfit& m.misfit_limit;
+  archive& m.condition& m.histogram& m.features& m.misfit& m.misfit_limit& m.area;
 }
 
 template <class Archive>

@@ -3,8 +3,9 @@
  *
  * Fields: format_version (U4, now 1), label and condition (U1 x 64, NUL-padded UTF-8), role (U4: 0
  * object, 1 background), member (U4, counts from 0 within a model), resolution (U4 x 4), delta_max,
- * r_mean, r_max, r_min, surface_area, features, tau, floor (F8), misfit, misfit_limit (F8, may be
- * missing), histogram (F4 x bins). What is checked on loading: doc/database_format.md. */
+ * r_mean, r_max, r_min, surface_area, features, tau, floor (F8), misfit, misfit_limit, area (F8,
+ * may be missing), centre (F8 x 7, may be missing), histogram (F4 x bins). What is checked on
+ * loading: doc/database_format.md. */
 #pragma once
 
 #include "pcl_surflet/compat.h"

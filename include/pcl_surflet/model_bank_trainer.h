@@ -50,6 +50,7 @@ private:
   /** \brief Histograms of disturbed samples: of many pairs, and of as many as a query has. */
   struct Counted {
     std::vector<PairHistogram> rich, like_queries;
+    std::vector<double> left; ///< share of the sample that the condition leaves
   };
 
   void addMembers(HistogramModel& model, const Base& base) const;

@@ -34,8 +34,10 @@ struct SceneDetection : Detection {
   /** \brief How often such a detection is right among unknown objects, in [0, 1]; see
    * detail::confidenceOf(). */
   double confidence = 0;
-  /** \brief Its cells, relative to those that the model's whole surface is expected to occupy; see
-   * detail::coverageOf(). NaN if the model's area is unknown: it was trained from points. */
+  /** \brief Its cells, relative to those that what its model's member shows (Detection::member) is
+   * expected to occupy: the whole surface, or one view of it; see detail::coverageOf(). Below 1 a
+   * part is hidden or was not found. NaN if the member's area is unknown: it was trained from
+   * points. Where the pose and the viewpoints are known, PoseEstimate::coverage knows better. */
   double coverage = std::numeric_limits<double>::quiet_NaN();
 };
 

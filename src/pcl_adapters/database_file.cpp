@@ -27,7 +27,7 @@ struct FieldSpec {
   bool optional = false;
 };
 
-const std::array<FieldSpec, 18> kFields = {{{"format_version", PCLPointField::UINT32, 1},
+const std::array<FieldSpec, 19> kFields = {{{"format_version", PCLPointField::UINT32, 1},
                                             {"label", PCLPointField::UINT8, kTextBytes},
                                             {"condition", PCLPointField::UINT8, kTextBytes},
                                             {"role", PCLPointField::UINT32, 1},
@@ -43,6 +43,7 @@ const std::array<FieldSpec, 18> kFields = {{{"format_version", PCLPointField::UI
                                             {"floor", PCLPointField::FLOAT64, 1},
                                             {"misfit", PCLPointField::FLOAT64, 1, true},
                                             {"misfit_limit", PCLPointField::FLOAT64, 1, true},
+                                            {"area", PCLPointField::FLOAT64, 1, true},
                                             {"centre", PCLPointField::FLOAT64, kCentreTerms, true},
                                             {"histogram", PCLPointField::FLOAT32, 0}}};
 
@@ -52,7 +53,7 @@ struct Row {
   std::array<char, kTextBytes> label{}, condition{};
   std::array<std::uint32_t, 4> resolution{};
   double delta_max = 0, r_mean = 0, r_max = 0, r_min = 0, surface_area = 0, features = 0, tau = 0,
-         floor = 0, misfit = 0, misfit_limit = 0;
+         floor = 0, misfit = 0, misfit_limit = 0, area = 0;
   CentreWeights centre{};
   std::vector<float> histogram;
 
@@ -76,6 +77,7 @@ struct Row {
             &floor,
             &misfit,
             &misfit_limit,
+            &area,
             centre.data(),
             histogram.data()};
   }
@@ -126,6 +128,7 @@ rowOf(const HistogramModel& model, std::size_t member, const PenaltyParameters& 
   row.floor = penalty.floor;
   row.misfit = model.members[member].misfit;
   row.misfit_limit = model.members[member].misfit_limit;
+  row.area = model.members[member].area;
   row.centre = model.centre;
   row.histogram = model.members[member].histogram;
   return row;
@@ -237,7 +240,8 @@ modelOf(const Row& row, const TableReader& reader, const std::string& where)
   model.surface_area = row.surface_area;
   model.centre = row.centre;
   model.members.push_back({textOf(row.condition, reader, where), row.histogram,
-                           static_cast<std::uint64_t>(row.features), row.misfit, row.misfit_limit});
+                           static_cast<std::uint64_t>(row.features), row.misfit, row.misfit_limit,
+                           row.area});
   return model;
 }
 

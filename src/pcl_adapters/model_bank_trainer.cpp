@@ -150,11 +150,14 @@ ModelBankTrainer::count(const BankCondition& condition, const Base& base, double
   const Resolution& resolution = trainer_.getResolution();
   const std::vector<PairHistogram> none(std::size_t{samples_} * condition.members,
                                         PairHistogram(resolution));
-  Counted counted{none, none};
+  Counted counted{none, none, std::vector<double>(none.size())};
   parallelFor(none.size(), trainer_.getNumberOfThreads(), [&](std::size_t t, unsigned) {
     const auto own = mix64(seed + t);
-    const PairSource source(disturbed(condition, base.samplings[t % base.samplings.size()],
-                                      {delta_max, base.spacing, bank_.normal_radius}, own));
+    const SurfletSet& sampling = base.samplings[t % base.samplings.size()];
+    const SurfletSet left =
+        disturbed(condition, sampling, {delta_max, base.spacing, bank_.normal_radius}, own);
+    const PairSource source(left);
+    counted.left[t] = static_cast<double>(left.size()) / static_cast<double>(sampling.size());
     counted.rich[t] = countDrawnPairs(source, resolution, delta_max, kPairs, mix64(own), 1);
     counted.like_queries[t] =
         countDrawnPairs(source, resolution, delta_max,
@@ -178,9 +181,12 @@ ModelBankTrainer::addCondition(HistogramModel& model, const Base& base, std::siz
       calibrated(leftOutMisfits(counted.like_queries, counted.rich, groups, kFloor));
   for (std::size_t g = 0; g < groups.size(); ++g) {
     const auto h = groups[g].sum.normalized();
+    double left = 0;
+    for (const auto k : groups[g].parts)
+      left += counted.left[k] / static_cast<double>(groups[g].parts.size());
     model.members.push_back({condition.name(g, groups.size()),
                              std::vector<float>(h.begin(), h.end()), groups[g].sum.features,
-                             calibration.mean, calibration.limit});
+                             calibration.mean, calibration.limit, left * model.surface_area});
   }
 }
 

@@ -284,7 +284,7 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
     auto& d = detections[k];
     static_cast<Detection&>(d) = std::move(result.detections[k]);
     d.confidence = confidenceOf(d, request.parameters.steps.min_cluster);
-    d.coverage = coverageOf(d.cells.size(), database[d.model].surface_area, leaf);
+    d.coverage = coverageOf(d.cells.size(), database[d.model].areaOf(d.member), leaf);
   }
   findPoints(reduction, points, leaf, detections);
   cells = std::move(reduction.cells);

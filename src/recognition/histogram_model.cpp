@@ -50,6 +50,8 @@ memberProblem(const ModelMember& member, const Resolution& resolution)
   for (const double v : {member.misfit, member.misfit_limit})
     if (!std::isfinite(v) || v < 0)
       return "its misfit is negative or not finite";
+  if (!std::isfinite(member.area) || member.area < 0)
+    return "its area is negative or not finite";
   double sum = 0;
   for (const float v : member.histogram) {
     if (!std::isfinite(v) || v < 0)
@@ -86,6 +88,13 @@ HistogramModel::problem() const
     if (auto text = memberProblem(member, resolution); !text.empty())
       return in_model(text);
   return {};
+}
+
+double
+HistogramModel::areaOf(std::size_t member) const
+{
+  const double own = members.at(member).area;
+  return own > 0 || member > 0 ? own : surface_area;
 }
 
 } // namespace pcl_surflet

@@ -155,6 +155,7 @@ HistogramModelTrainer::finish(const std::string& label, const PairHistogram& his
   model.surface_area = area;
   const auto h = histogram.normalized();
   model.members.push_back({"complete", std::vector<float>(h.begin(), h.end()), histogram.features});
+  model.members.back().area = area;
   if (const auto problem = model.problem(); !problem.empty())
     throw TrainingError(problem);
   return model;

@@ -105,6 +105,12 @@ settleAll(const HistogramModel& model, const std::string& label, std::vector<Ori
   return cells;
 }
 
+double
+areaOfCells(double cells, double leaf)
+{
+  return cells * leaf * leaf / interpretation::kCellsOfArea;
+}
+
 /** \brief Where orientationsOf() turns the middle of the object to. */
 void
 teach(const CentreLesson& lesson, const std::vector<Orientation>& all, std::uint64_t seed)
@@ -135,7 +141,7 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
     cells = settleAll(model, label, all, threads);
     member.histogram = meanHistogram(all, model, seed, threads, member.features);
   }
-  model.surface_area = cells * leaf * leaf / interpretation::kCellsOfArea;
+  model.surface_area = member.area = areaOfCells(cells, leaf);
   return model;
 }
 
@@ -146,8 +152,8 @@ addView(HistogramModel& model, const std::string& condition, const SurfletSet& s
   if (model.members.empty())
     throw std::invalid_argument("pcl_surflet: a view needs a model of the whole object");
   auto all = orientationsOf(seen, leaf, seed);
-  settleAll(model, model.label + "', '" + condition, all, threads);
   ModelMember member;
+  member.area = areaOfCells(settleAll(model, model.label + "', '" + condition, all, threads), leaf);
   member.condition = condition;
   member.histogram = meanHistogram(all, model, seed, threads, member.features);
   model.members.push_back(std::move(member));

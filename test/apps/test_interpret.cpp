@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 
 using namespace pcl_surflet::test;
 
@@ -111,6 +112,29 @@ TEST_F(Interpret, RefusesPosesWithoutModels)
   EXPECT_TRUE(ended(run("interpret", {"-database", path("db.pcd"), "-pose", path(""), "-viewpoints",
                                       "0,0", path("s.pcd")}),
                     1, {"-viewpoints"}));
+}
+
+TEST_F(Interpret, PosesJudgeNames)
+{
+  // A goblet takes the place of the torus: nothing else has the name, so its pose must refute it.
+  ASSERT_EQ(run("generate", {"-out", path("ignored.pcd"), "-models", path("meshes"), "-density",
+                             "1000", "bottle", "wine_glass"})
+                .code,
+            0);
+  std::filesystem::rename(path("meshes/wine_glass.off"), path("meshes/torus.off"));
+  const std::vector<std::string> common = {
+      "-database", path("db.pcd"), "-background", "exclude", "-empty",       path("e.pcd"),
+      "-leaf",     "0.008",        "-csv",        "-pose",   path("meshes"), path("s.pcd")};
+  EXPECT_EQ(parseCsv(run("interpret", common).out).size(), 3u);
+  auto verified = common;
+  verified.insert(verified.begin(), {"-verify", "-max", "5"});
+  const AppRun r = run("interpret", verified);
+  ASSERT_TRUE(ended(r, 0, {"refute"}));
+  const auto table = parseCsv(r.out);
+  ASSERT_EQ(table.size(), 2u);
+  EXPECT_EQ(table[1][1], "bottle");
+  EXPECT_TRUE(ended(run("interpret", {"-database", path("db.pcd"), "-verify", path("s.pcd")}), 1,
+                    {"-verify", "-pose"}));
 }
 
 TEST_F(Interpret, SaysWhyNothingIsFound)

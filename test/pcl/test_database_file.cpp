@@ -35,6 +35,7 @@ protected:
     auto cup = trainer.train("cup \xC3\xA9", sampleShape(*shapeByName("cup"), 400, 1));
     cup.members.push_back(cup.members[0]);
     cup.members[1].condition = "noise 1 %";
+    cup.members[1].area = 0.0123;
     cup.centre = {0.5, -1.25, 2, 0, 0, 0, -0.1};
     database_.add(cup);
     trainer.setRole(ModelRole::Background);
@@ -129,6 +130,7 @@ TEST_F(DatabaseFile, RoundTripKeepsEverything)
     for (std::size_t k = 0; k < a.members.size(); ++k) {
       EXPECT_EQ(a.members[k].condition, b.members[k].condition);
       EXPECT_EQ(a.members[k].features, b.members[k].features);
+      EXPECT_EQ(a.members[k].area, b.members[k].area);
       EXPECT_EQ(a.members[k].histogram, b.members[k].histogram);
     }
   }
@@ -167,6 +169,8 @@ TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
   expectHas(errorWith("features", -3.0), "features");
   expectHas(errorWith("misfit", nan), "misfit");
   expectHas(errorWith("misfit_limit", -1.0), "misfit");
+  expectHas(errorWith("area", nan), "area");
+  expectHas(errorWith("area", -1.0), "area");
   expectHas(errorWith("centre", nan, 0, 6), "centre is not finite");
   expectHas(errorWith("centre", 7.0, 2, 1), "member");
   expectHas(errorWith("tau", 0.25), "tau or floor");
@@ -196,9 +200,9 @@ TEST_F(DatabaseFile, PenaltyIsChecked)
 TEST_F(DatabaseFile, MissingOrForeignFieldsAreRefused)
 {
   const auto newer = [](const std::string& name) {
-    return name.rfind("misfit", 0) == 0 || name == "centre";
+    return name.rfind("misfit", 0) == 0 || name == "centre" || name == "area";
   };
-  for (int k = 0; k < 18; ++k) {
+  for (int k = 0; k < 19; ++k) {
     std::string name;
     const auto error = errorAfter([&](auto& t) {
       name = t.fields[static_cast<std::size_t>(k)].name;

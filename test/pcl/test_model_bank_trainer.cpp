@@ -87,6 +87,12 @@ TEST(ModelBankTrainer, TheFirstMemberIsCleanAndCompleteTheOthersFollowTheBank)
     EXPECT_GT(member.misfit, 0) << member.condition;
     EXPECT_GT(member.misfit_limit, 1) << member.condition;
   }
+  for (std::size_t k = 0; k < 2; ++k)
+    EXPECT_NEAR(model.members[k].area, model.surface_area, 0.001 * model.surface_area);
+  for (std::size_t k = 2; k < 6; ++k)
+    EXPECT_NEAR(model.members[k].area, 0.3 * model.surface_area, 0.01 * model.surface_area);
+  for (std::size_t k = 6; k < 9; ++k) // a cup hides most of its inside
+    EXPECT_NEAR(model.members[k].area, 0.4 * model.surface_area, 0.15 * model.surface_area);
 }
 
 TEST(ModelBankTrainer, ABankWithoutConditionsIsThePlainTrainer)

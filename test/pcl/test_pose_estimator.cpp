@@ -2,6 +2,7 @@
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/pose_estimator.h"
+#include "pcl_surflet/pose_verification.h"
 #include "pcl_surflet/surface_file.h"
 
 #include <pcl/common/io.h>
@@ -147,6 +148,62 @@ TEST(PoseEstimator, MisuseIsTold)
   EXPECT_TRUE(estimator.estimate({outside}).empty());
   outside.indices = {-1};
   EXPECT_TRUE(estimator.estimate({outside}).empty());
+}
+
+TEST(PoseVerification, WrongNamesAreRefuted)
+{
+  const Cloud::Ptr cloud = scene();
+  SceneDetection right = body(*cloud), wrong = right, unknown = right, doubtful = right;
+  wrong.label = "wine_glass"; // a bottle has a body like a cup's
+  unknown.label = doubtful.label = "goblet";
+  unknown.fit = 0.8;
+  doubtful.fit = 0.6;
+  std::vector<PoseModel> models = cupModel();
+  models.push_back(
+      PoseModel::train("wine_glass", sampleShape(*shapeByName("wine_glass"), 20000, 1)));
+  PoseEstimator<pcl::PointNormal> estimator;
+  estimator.setInputCloud(cloud);
+  estimator.setModels(models);
+  std::vector<SceneDetection> detections = {wrong, right, doubtful, unknown};
+  auto poses = estimator.estimate(detections);
+  ASSERT_EQ(poses.size(), 4U);
+  EXPECT_EQ(verdictOf(poses[0], 0.7), Verdict::Refuted) << poses[0].inlier_share;
+  EXPECT_EQ(verdictOf(poses[1], 0.7), Verdict::Confirmed) << poses[1].inlier_share;
+  EXPECT_EQ(verdictOf(poses[2], 0.7), Verdict::Open) << "there is no goblet";
+  EXPECT_EQ(keepVerified(detections, poses), 2U);
+  ASSERT_EQ(detections.size(), 2U);
+  EXPECT_EQ(detections[0].label, "cup");
+  EXPECT_EQ(detections[1].fit, 0.8) << "enough where no pose can tell";
+  ASSERT_EQ(poses.size(), 2U);
+  EXPECT_EQ(poses[0].status, PoseStatus::Found);
+  EXPECT_EQ(poses[1].status, PoseStatus::NoModel);
+}
+
+TEST(PoseVerification, LimitsAreInclusiveAndChecked)
+{
+  PoseEstimate pose;
+  pose.status = PoseStatus::Found;
+  pose.inlier_share = 0.7;
+  EXPECT_TRUE(isVerified(pose, 0));
+  pose.inlier_share = 0.699;
+  EXPECT_FALSE(isVerified(pose, 1));
+  pose.status = PoseStatus::NoAgreement;
+  EXPECT_FALSE(isVerified(pose, 1));
+  pose.status = PoseStatus::Undetermined;
+  EXPECT_TRUE(isVerified(pose, 0.72));
+  EXPECT_FALSE(isVerified(pose, 0.719));
+  std::vector<SceneDetection> one(1);
+  std::vector<PoseEstimate> none, pose_of_one(1);
+  EXPECT_THROW(keepVerified(one, none), std::invalid_argument);
+  for (const double bad : {-0.1, 1.1, std::numeric_limits<double>::quiet_NaN()}) {
+    VerificationParameters p;
+    p.min_inliers = bad;
+    EXPECT_THROW(keepVerified(one, pose_of_one, p), std::invalid_argument);
+    p = {};
+    p.min_fit = bad;
+    EXPECT_THROW(keepVerified(one, pose_of_one, p), std::invalid_argument);
+  }
+  EXPECT_EQ(one.size(), 1U);
 }
 
 TEST(PoseModels, AreLoadedByName)

@@ -4,6 +4,7 @@
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/recognition/scene_interpretation.h"
 #include "pcl_surflet/recognition/scene_training.h"
+#include "pcl_surflet/scene_interpreter.h"
 
 #include <gtest/gtest.h>
 
@@ -79,6 +80,12 @@ foundFromOneSide(std::size_t members)
   for (const auto& d : found.detections) {
     labels.push_back(d.label);
     EXPECT_EQ(d.member > 0, members > 1) << "a view of it answers, not the whole";
+    const auto& model = database[d.model];
+    const auto coverage = [&](double area) {
+      return detail::coverageOf(d.cells.size(), area, kLeaf);
+    };
+    EXPECT_NEAR(coverage(model.areaOf(d.member)), 1, 0.3) << "all that one sensor can see";
+    EXPECT_LT(coverage(model.surface_area), 0.7) << d.label;
     for (const auto& item : scene.items)
       if (item.label == d.label) {
         EXPECT_LT(distance(d.centre, item.centroid), item.r_mean / 2);
@@ -103,6 +110,19 @@ TEST(ViewTraining, AModelHasItsViews)
   EXPECT_EQ(glass.members[2].condition, "seen from 0, no foot");
   for (const auto& m : glass.members)
     EXPECT_NEAR(std::accumulate(m.histogram.begin(), m.histogram.end(), 0.0), 1, 1e-4);
+}
+
+TEST(ViewTraining, AViewKnowsTheAreaThatItShows)
+{
+  const auto& bottle = modelOf(0);
+  EXPECT_EQ(bottle.members[0].area, bottle.surface_area);
+  for (std::size_t k = 1; k < bottle.members.size(); ++k) {
+    const auto& m = bottle.members[k];
+    // A body of revolution: less than half from one side, and two sides have nothing in common.
+    const bool is_pair = m.condition.find("opposite") != std::string::npos;
+    EXPECT_GT(m.area, 0.3 * bottle.surface_area * (is_pair ? 2 : 1)) << m.condition;
+    EXPECT_LT(m.area, 0.5 * bottle.surface_area * (is_pair ? 2 : 1)) << m.condition;
+  }
 }
 
 TEST(ViewTraining, OneSideIsEnoughForModelsWithViewsOnly)

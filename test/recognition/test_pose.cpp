@@ -266,6 +266,22 @@ TEST(Pose, WhatSensorsShouldSeeCounts)
   const auto lower =
       estimatePose(kept(cup, [](const Surflet& s) { return s.z < 0.05; }), modelOf("cup"), p);
   EXPECT_LT(lower.score, lower.inlier_share - 0.1);
+  EXPECT_GT(whole.coverage, 0.9);
+  EXPECT_NEAR(lower.coverage, 0.5, 0.15);
+  EXPECT_TRUE(std::isnan(estimatePose(cup, modelOf("cup")).coverage)) << "no sensor is known";
+}
+
+TEST(Pose, CoverageIsOfWhatTheSensorsCanSee)
+{
+  // Half of the bottle is all that one sensor sees of it, and half of what two opposite ones see.
+  const auto half = kept(sampled("bottle", 2), [](const Surflet& s) { return s.nx < 0; });
+  PoseParameters p;
+  p.viewpoints = {{-3, 0, 0.1}};
+  const auto one = estimatePose(half, modelOf("bottle"), p);
+  ASSERT_EQ(one.status, PoseStatus::Found) << one.reason;
+  EXPECT_GT(one.coverage, 0.9);
+  p.viewpoints.push_back({3, 0, 0.1});
+  EXPECT_NEAR(estimatePose(half, modelOf("bottle"), p).coverage, 0.5, 0.1);
 }
 
 TEST(Pose, DoesNotDependOnTheUnit)

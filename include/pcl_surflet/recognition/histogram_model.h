@@ -24,6 +24,9 @@ struct ModelMember {
   double misfit = 0;
   /** \brief Largest multiple of it among 97.5 % of those samples; 0 if not measured. */
   double misfit_limit = 0;
+  /** \brief Area of the part of the surface that it shows, by the definition of
+   * HistogramModel::surface_area; 0 if unknown. */
+  double area = 0;
 };
 
 /** \brief Model M = (H, delta_max, r_mean, r_max) [Wahl 2007, Eq. 2.24] with r_min (Eq. 6.1).
@@ -49,6 +52,10 @@ struct PCL_SURFLET_API HistogramModel {
    * resolution, lengths (finite, 0 <= r_min <= r_mean <= r_max <= delta_max, delta_max > 0),
    * weights (finite) and of every member size, values and sum. */
   std::string problem() const;
+
+  /** \brief Area of what member number \p member shows: its own; if that is unknown, that
+   * of the whole surface for the first member, which is complete, and 0 (unknown) for others. */
+  double areaOf(std::size_t member) const;
 };
 
 } // namespace pcl_surflet

@@ -142,6 +142,10 @@ struct PoseEstimate {
   /** \brief Score less that of the best pose found that looks different; small where the cluster
    * leaves the pose open, say where a cup hides its handle. */
   double margin = 0;
+  /** \brief Share of what the viewpoints should see of the model in this pose that the cluster
+   * holds, in [0, 1]: what is missing is hidden by other things or was not found, or the cluster is
+   * sparser than the model's cells (about 500 on the whole surface). NaN without viewpoints. */
+  double coverage = std::numeric_limits<double>::quiet_NaN();
   double residual = 0; ///< root mean square distance of inliers from the surface, scene's unit
   /** \brief Standard deviation of the object's centre, scene's unit, as the residuals of
    * independent cells tell. */

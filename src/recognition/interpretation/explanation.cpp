@@ -16,9 +16,6 @@ namespace {
 constexpr double kLeastRoughFit = 0.45;
 constexpr double kBackgroundKnown = 0.1, kScanned = 0.5; ///< shares of the work, about
 constexpr unsigned kSettlings = 2;
-/** \brief Share of its surface that a view of an object shows, about, where models have members
- * for views. */
-constexpr double kSeenShare = 0.4;
 /** \brief One cell of so many is asked at first: their core is enough to ask all. */
 constexpr std::size_t kFirstCompletion = 4;
 constexpr std::uint64_t kScoreStream = std::uint64_t{4} << 40;
@@ -127,14 +124,16 @@ countDetections(SceneInterpretation& result)
     m.lost = m.explanations - m.died_fit - m.detections;
 }
 
-/** \brief Of all that may be seen of it at once; 0 if unknown. */
+/** \brief Of the member that shows least; 0 if unknown. */
 double
 expectedCells(const HistogramModel& model, double leaf)
 {
   if (!(leaf > 0))
     return 0;
-  const double seen = model.members.size() > 1 ? kSeenShare : 1;
-  return seen * kCellsOfArea * model.surface_area / (leaf * leaf);
+  double least = model.areaOf(0);
+  for (std::size_t k = 1; k < model.members.size(); ++k)
+    least = std::min(least, model.areaOf(k));
+  return kCellsOfArea * least / (leaf * leaf);
 }
 
 } // namespace

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace pcl_surflet {
 namespace interpretation {
@@ -36,10 +38,8 @@ fillSupport(const Histogram& penalised, const std::vector<float>& chance, double
   m.support.push_back(0);
 }
 
-} // namespace
-
 std::vector<float>
-chanceAngles(const Resolution& resolution)
+countedChanceAngles(const Resolution& resolution)
 {
   constexpr std::uint32_t kSurflets = 700; // 245,000 pairs: seven per cent for an average bin
   CounterRandom random(1);
@@ -71,6 +71,21 @@ chanceAngles(const Resolution& resolution)
   for (float& c : chance)
     c /= total;
   return chance;
+}
+
+} // namespace
+
+const std::vector<float>&
+chanceAngles(const Resolution& resolution)
+{
+  // A quarter of the training of views, when it was counted for each of them.
+  static std::mutex mutex;
+  static std::map<std::array<int, 3>, std::vector<float>> known;
+  const std::lock_guard<std::mutex> lock(mutex);
+  const std::array<int, 3> key = {resolution.alpha, resolution.beta, resolution.gamma};
+  const auto found = known.find(key);
+  return found != known.end() ? found->second
+                              : known.emplace(key, countedChanceAngles(resolution)).first->second;
 }
 
 SceneModel
@@ -140,7 +155,7 @@ sceneModels(const ModelDatabase& database, bool with_background, double scale, u
     if (role == ModelRole::Object)
       models.objects = order.size();
   }
-  const auto chance = chanceAngles(models.resolution);
+  const auto& chance = chanceAngles(models.resolution);
   models.all.resize(order.size());
   parallelFor(order.size(), threads, [&](std::size_t k, unsigned) {
     models.all[k] = sceneModel(database[order[k]], h_min, scale, chance);

@@ -112,8 +112,9 @@ struct Overlap {
 /** \param histogram of sum 1, padded like SceneModel::members */
 Overlap bestOverlap(const SceneModel& model, const std::vector<float>& histogram);
 
-/** \brief Distribution of the angles of two surflets at random places with random normals. */
-std::vector<float> chanceAngles(const Resolution& resolution);
+/** \brief Distribution of the angles of two surflets at random places with random normals; counted
+ * once for each resolution and kept. */
+const std::vector<float>& chanceAngles(const Resolution& resolution);
 
 /** \brief Tables of one model. \param h_min least probability of a bin
  * \param scale of the scene's PairSource \param chance chanceAngles() */

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace pcl_surflet {
 namespace pose {
@@ -85,7 +86,7 @@ expected(const ModelData& model, const Cluster& cluster, const RigidMotion& to_m
   return seen;
 }
 
-/** \brief Share of what should be seen that was not found. */
+/** \brief Share of what should be seen that was not found; 0 if nothing should be. */
 double
 unseenShare(const std::vector<char>& should, const std::vector<char>& found)
 {
@@ -126,6 +127,18 @@ fitOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_mode
   if (!cluster.viewpoints.empty() && cluster.unseen_weight > 0)
     fit.score -= cluster.unseen_weight * unseenShare(expected(model, cluster, to_model), found);
   return fit;
+}
+
+double
+coverageOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_model,
+           double reach)
+{
+  const auto should = expected(model, cluster, to_model);
+  if (std::find(should.begin(), should.end(), 1) == should.end())
+    return std::numeric_limits<double>::quiet_NaN();
+  std::vector<char> found(model.cells.size(), 0);
+  contactsOf(model, cluster.cells, to_model, reach, found);
+  return 1 - unseenShare(should, found);
 }
 
 double

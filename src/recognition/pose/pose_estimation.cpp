@@ -315,6 +315,7 @@ estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PosePar
   e.motion = toScene(model, frame, found[0].to_model);
   e.score = fit.score;
   e.inlier_share = fit.share;
+  e.coverage = coverageOf(model, cluster, found[0].to_model, p.fine_reach);
   e.residual = std::sqrt(fit.squares) * model.diameter;
   e.margin = marginOf(model, found);
   e.symmetry = movedSymmetry(model.symmetry, e.motion);

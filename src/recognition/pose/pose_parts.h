@@ -139,6 +139,11 @@ struct Fit {
 Fit fitOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_model,
           double reach);
 
+/** \brief Share of what the viewpoints should see that the cluster, without what is beside it,
+ * holds; NaN without viewpoints, or where they see nothing. */
+double coverageOf(const ModelData& model, const Cluster& cluster, const RigidMotion& to_model,
+                  double reach);
+
 /** \brief Share of the model that lies on itself after \p motion. */
 double selfShare(const ModelData& model, const RigidMotion& motion, double reach);
 
