@@ -65,7 +65,7 @@ private:
     const auto& known = known_[d.model];
     const PoseEstimate e =
         estimatePose(cluster, known.pose, parameters_,
-                     pointsBeside(cells, taken, cluster, known.pose.diameter()));
+                     detail::pointsBeside(cells, taken, cluster, known.pose.diameter()));
     if (e.status == PoseStatus::Found) {
       f.motion = e.motion;
       f.centre = e.motion.moved(known.centre);
