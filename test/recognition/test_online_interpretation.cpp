@@ -398,7 +398,7 @@ TEST(OnlineInterpretation, AScanThatThrowsOrIsCancelledNeverWas)
   EXPECT_THROW(online.addScan(second, kSensor), std::runtime_error);
   EXPECT_EQ(stateOf(online), before);
   does = Does::Cancel;
-  EXPECT_TRUE(online.addScan(second, kSensor).is_cancelled);
+  EXPECT_TRUE(online.addScan(second, kSensor).cancelled);
   EXPECT_EQ(stateOf(online), before);
   does = Does::Work;
   for (auto* o : {&online, &untroubled})
