@@ -176,9 +176,7 @@ void
 evaluate(const std::vector<SceneItem>& items, const Options& o)
 {
   const ModelDatabase database = tableDatabase(items, o.table, kBins);
-  std::vector<std::string> labels;
-  for (const auto& item : items)
-    labels.push_back(item.label);
+  const auto labels = labelsOf(items);
   if (o.csv)
     std::puts("length,seed,scan,cells,changed,vanished,interpreted,kept,sought,detections,"
               "confident,seconds,batch_seconds");
@@ -206,12 +204,8 @@ void
 addOptions(CommandLine& line, Options& o)
 {
   line.count("-scenes", "N", "number of scenes of each length, default 10", o.scenes, 1, 1000000);
-  line.option("-lengths", "L,...", "lengths of the table, default 1,2,4",
-              [&o](const std::string& text) {
-                o.lengths.clear();
-                for (const auto& part : parts(text, ','))
-                  o.lengths.push_back(parseReal("-lengths", part, 0.1, 1000));
-              });
+  addNumbers(line, "-lengths", "L,...", "lengths of the table, default 1,2,4", 0.1, 1000,
+             o.lengths);
   line.real("-per_length", "N", "items per unit of length, default 5", o.table.items_per_length,
             1e-3, 1e3);
   line.real("-stride", "S", "of the sensor between scans, default 0.15", o.table.stride, 1e-3, 1e3);

@@ -1,22 +1,14 @@
 // Ours and other ways to names and poses side by side on the same sensed scenes.
 
 #include "app_common.h"
-#include "evaluation/peer_scoring.h"
-#include "evaluation/pose_peers.h"
-#include "evaluation/recognisers.h"
-#include "experiment/peers/isolation.h"
+#include "evaluation/peers.h"
 #include "scene_items.h"
 #include "sensor_options.h"
-#include "thread_time.h"
 
 #include "pcl_surflet/core/cell_reduction.h"
-#include "pcl_surflet/core/geometry.h"
-#include "pcl_surflet/pose_estimator.h"
-#include "pcl_surflet/pose_verification.h"
 
 #include <algorithm>
 #include <cstdio>
-#include <optional>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -24,7 +16,6 @@ using namespace pcl_surflet::apps;
 namespace {
 
 constexpr const char* kProgram = "pcl_surflet_evaluate_peers";
-constexpr std::size_t kModelSurflets = 40000;
 constexpr std::uint64_t kFirstTuned = 1; // thresholds are chosen on other scenes than any reported
 
 struct Options {
@@ -35,190 +26,6 @@ struct Options {
   std::vector<std::string> clutter; ///< things that no peer knows
   std::uint64_t unknown = 0;        ///< of them present in every scene
   std::uint64_t scenes = 20, tune = 5, seed = 1001, least = 50, limit = 120;
-};
-
-/** \brief An object, as all peers know it. */
-struct Known {
-  SceneItem item;
-  SurfletSet cells; ///< of the complete surface, in the item's coordinates
-  std::array<double, 3> centre{};
-  PoseModel pose;
-};
-
-/** \brief A scene as all peers get it. */
-struct Given {
-  CellScene all;                      ///< as sensed, thin walls kept
-  std::vector<std::uint32_t> visible; ///< cells away from those of the empty scene
-  std::uint64_t seed = 0;
-};
-
-struct Answer {
-  std::vector<FoundObject> found;
-  double seconds = 0;
-  std::size_t failures = 0;
-};
-
-class Peer {
-public:
-  virtual ~Peer() = default;
-  virtual Answer answer(const Given& given) const = 0;
-};
-
-std::array<double, 3>
-centroidOf(const SurfletSet& set)
-{
-  const Extent extent = computeExtent(set);
-  return {extent.centroid[0], extent.centroid[1], extent.centroid[2]};
-}
-
-std::vector<Known>
-knownObjects(const std::vector<SceneItem>& items, double leaf)
-{
-  std::vector<Known> known;
-  for (const auto& item : items) {
-    const SurfletSet surface = item.sample(kModelSurflets, kTrainingSeed);
-    known.push_back({item, reduceToTwoSidedCells(surface, leaf).cells, centroidOf(surface),
-                     PoseModel::train(item.label, surface)});
-  }
-  return known;
-}
-
-/** \brief A method of pcl_surflet_evaluate; ours has poses, too, which may be the judge of names.
- */
-class RecogniserPeer : public Peer {
-public:
-  RecogniserPeer(const std::string& name, const std::vector<SceneItem>& items,
-                 const std::vector<Known>& known, const RecogniserOptions& o)
-      : known_(known), poses_(name == "ours" || name == "ours_verified"),
-        verified_(name == "ours_verified")
-  {
-    RecogniserOptions own = o;
-    if (verified_)
-      own.explanation.min_fit = VerificationParameters::kProposalFit;
-    method_ = recogniser(poses_ ? "explanation" : name, items, own);
-    if (o.sensing)
-      for (const auto& place : sensorPoses(o.sensing->views))
-        parameters_.viewpoints.push_back(place.position);
-  }
-
-  Answer
-  answer(const Given& given) const override
-  {
-    Answer a;
-    const double start = threadSeconds();
-    const auto& cells = given.all.cells;
-    const auto detections = method_->find(cells, given.seed).detections;
-    std::vector<char> taken(cells.size(), 0);
-    for (const auto& d : detections)
-      for (const auto c : d.cells)
-        taken[c] = 1;
-    for (const auto& d : detections)
-      if (const auto f = found(d, cells, taken))
-        a.found.push_back(*f);
-    a.seconds = threadSeconds() - start;
-    return a;
-  }
-
-private:
-  /** \return nothing if the pose refutes the name */
-  std::optional<FoundObject>
-  found(const Detection& d, const SurfletSet& cells, const std::vector<char>& taken) const
-  {
-    FoundObject f;
-    f.object = d.model;
-    f.cells = d.cells;
-    f.score = d.score;
-    const SurfletSet cluster = cells.subset(d.cells);
-    f.centre = centroidOf(cluster);
-    if (!poses_)
-      return f;
-    const auto& known = known_[d.model];
-    const PoseEstimate e = estimatePose(cluster, known.pose, parameters_,
-                                        pointsBeside(cells, taken, cluster, known.pose.diameter()));
-    if (verified_ && !isVerified(e, d.fit))
-      return std::nullopt;
-    if (e.status == PoseStatus::Found) {
-      f.motion = e.motion;
-      f.centre = e.motion.moved(known.centre);
-    }
-    return f;
-  }
-
-  const std::vector<Known>& known_;
-  bool poses_, verified_;
-  std::unique_ptr<Recogniser> method_;
-  PoseParameters parameters_;
-};
-
-/** \brief Searches for every model in what is not background; the best supported pose counts. */
-class PosePeer : public Peer {
-public:
-  PosePeer(const std::string& name, const std::vector<Known>& known, double leaf, unsigned limit)
-      : known_(known), leaf_(leaf), limit_(limit)
-  {
-    PosePeerParameters p;
-    p.leaf = leaf;
-    for (const auto& k : known)
-      finders_.push_back(poseFinder(name, k.cells, p));
-  }
-
-  Answer
-  answer(const Given& given) const override
-  {
-    Answer a;
-    const SurfletSet scene = given.all.cells.subset(given.visible);
-    if (scene.empty())
-      return a;
-    for (std::size_t k = 0; k < known_.size(); ++k) {
-      const auto result = runIsolated([&] { return rowsOf(finders_[k]->find(scene)); }, limit_);
-      a.failures += result ? 0 : 1;
-      a.seconds += result ? result->seconds : limit_;
-      if (!result)
-        continue;
-      const double start = threadSeconds();
-      FoundObject best;
-      best.score = -1;
-      for (const auto& row : result->signatures)
-        best = better(std::move(best), k, row, scene);
-      if (best.score > 0)
-        a.found.push_back(std::move(best));
-      a.seconds += threadSeconds() - start;
-    }
-    a.found = withoutRivals(std::move(a.found));
-    for (auto& f : a.found)
-      for (auto& c : f.cells)
-        c = given.visible[c];
-    return a;
-  }
-
-private:
-  static std::vector<std::vector<float>>
-  rowsOf(const std::vector<RigidMotion>& motions)
-  {
-    std::vector<std::vector<float>> rows;
-    for (const auto& m : motions) {
-      const Eigen::Matrix4f matrix = matrixOf(m);
-      rows.emplace_back(matrix.data(), matrix.data() + matrix.size());
-    }
-    return rows;
-  }
-
-  FoundObject
-  better(FoundObject best, std::size_t object, const std::vector<float>& row,
-         const SurfletSet& scene) const
-  {
-    const RigidMotion motion = apps::motionOf(Eigen::Matrix4f(row.data()));
-    Support support = supportOf(known_[object].cells, motion, scene, leaf_);
-    if (support.share <= best.score)
-      return best;
-    return {object, std::move(support.cells), motion.moved(known_[object].centre), motion,
-            support.share};
-  }
-
-  const std::vector<Known>& known_;
-  double leaf_;
-  unsigned limit_;
-  std::vector<std::unique_ptr<PoseFinder>> finders_;
 };
 
 class Study {
@@ -238,33 +45,16 @@ public:
   void
   run(const std::string& name) const
   {
-    const auto peer = peerOf(name);
-    const bool tuned = options_.tune > 0 && isFinder(name);
+    const auto contestant =
+        peer(name, items_, known_, options_.recogniser, static_cast<unsigned>(options_.limit));
     PeerCounts chosen;
-    if (tuned)
-      chosen = counts(*peer, kFirstTuned, options_.tune);
+    if (options_.tune > 0 && isPoseFinder(name))
+      chosen = counts(*contestant, kFirstTuned, options_.tune);
     const double threshold = bestThreshold(chosen);
-    print(name, threshold, counts(*peer, options_.seed, options_.scenes));
+    print(name, threshold, counts(*contestant, options_.seed, options_.scenes));
   }
 
 private:
-  static bool
-  isFinder(const std::string& name)
-  {
-    const auto& names = poseFinderNames();
-    return std::find(names.begin(), names.end(), name) != names.end();
-  }
-
-  std::unique_ptr<Peer>
-  peerOf(const std::string& name) const
-  {
-    const auto& o = options_.recogniser;
-    if (isFinder(name))
-      return std::make_unique<PosePeer>(name, known_, o.leaf,
-                                        static_cast<unsigned>(options_.limit));
-    return std::make_unique<RecogniserPeer>(name, items_, known_, o);
-  }
-
   Given
   given(std::uint64_t seed) const
   {
@@ -333,17 +123,7 @@ private:
 void
 addOptions(CommandLine& line, Options& o)
 {
-  std::string names = "ours, ours_verified, classic_vfh, classic_esf, exclusion_vfh";
-  for (const auto& name : poseFinderNames())
-    names += ", " + name;
-  line.option("-peer", "NAME,...", "default ours,classic_vfh: " + names,
-              [&o, names](const std::string& text) {
-                o.peers = parts(text, ',');
-                for (const auto& name : o.peers)
-                  if ((", " + names + ",").find(", " + name + ",") == std::string::npos)
-                    throw UsageError("option -peer: there is no '" + name + "'; the names are " +
-                                     names);
-              });
+  addNames(line, "-peer", "default ours,classic_vfh", peerNames(), o.peers);
   line.count("-scenes", "N", "number of scenes, default 20", o.scenes, 1, 1000000);
   line.count("-tune", "N",
              "scenes from seed 1 on that thresholds are chosen on, default 5; 0: none", o.tune, 0,
@@ -355,8 +135,6 @@ addOptions(CommandLine& line, Options& o)
   line.count("-unknown", "N", "things of the clutter in every scene, default all", o.unknown, 0,
              1000000);
   addArrangement(line, o.recogniser.scene);
-  line.real("-density", "D", "points per squared unit, default 470000", o.recogniser.scene.density,
-            1e-9, 1e12);
   addSensor(line, o.sensing);
   line.real("-leaf", "S", "edge of the cells, default 0.0058", o.recogniser.leaf, 1e-9, 1e9);
   line.count("-limit", "S", "CPU seconds for one model before a search is ended, default 120",
@@ -381,6 +159,7 @@ run(int argc, char** argv)
   line.requireFiles(1, 1000);
   if (!line.given("-unknown"))
     o.unknown = o.clutter.size();
+  refuseNoiseOfViews(line);
   o.recogniser.dissertation.background = BackgroundTreatment::Exclude;
   o.recogniser.dissertation.threads = 1;
   o.sensing.threads = 1;

@@ -2,6 +2,7 @@
 
 #include "app_common.h"
 #include "evaluation/pose_scoring.h"
+#include "evaluation/scenes.h"
 #include "evaluation/scoring.h"
 #include "scene_items.h"
 #include "sensor_options.h"
@@ -23,7 +24,6 @@ using namespace pcl_surflet::apps;
 namespace {
 
 constexpr const char* kProgram = "pcl_surflet_evaluate_pose";
-constexpr std::uint64_t kTrainingSeed = 0x747261696eULL;
 constexpr std::size_t kModelSurflets = 40000;
 
 struct Options {
@@ -282,10 +282,6 @@ addOptions(CommandLine& line, Options& o)
 {
   line.count("-scenes", "N", "number of scenes, default 10", o.scenes, 1, 1000000);
   addArrangement(line, o.scene);
-  line.real("-density", "D", "points per squared unit, default 470000", o.scene.density, 1e-9,
-            1e12);
-  line.real("-noise", "S", "complete surfaces: moves points along their normals by up to S",
-            o.scene.noise, 0, 1e6);
   addSensor(line, o.sensing);
   line.flag("-interpret", "clusters are those that SceneInterpreter finds, default the true ones",
             o.interpreted);
@@ -327,6 +323,7 @@ run(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1000);
+  refuseNoiseOfViews(line);
   o.sensed = line.given("-views");
   o.sensing.threads = static_cast<unsigned>(o.threads);
   const auto objects = itemsOf(line.files());

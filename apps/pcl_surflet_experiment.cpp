@@ -112,7 +112,7 @@ addChapter3Options(CommandLine& line, Options& o)
 {
   line.text("-meshes", "DIR",
             "chapter 3: directory of the objects' OFF meshes, those of the Debian package "
-            "libcgal-demo (needed)",
+            "libcgal-demo (required)",
             o.meshes);
   line.text("-objects", "LIST", "chapter 3: names of other meshes there, by commas", o.objects);
   line.count("-tests", "N",
@@ -140,7 +140,7 @@ commandLine(Options& o)
                    "Runs an experiment of the dissertation and prints its result.\nNAME:" +
                        experimentList(true));
   const auto of = [](std::uint64_t value) { return ", default " + std::to_string(value); };
-  line.text("-out", "DIR", "directory for results, made if missing (needed)", o.out);
+  line.text("-out", "DIR", "directory for results, made if missing (required)", o.out);
   addChapter3Options(line, o);
   line.count("-saturations", "N", "space: steps of the saturation" + of(o.saturations),
              o.saturations, 1, 1000);

@@ -100,8 +100,8 @@ writeAlone(const Job& job)
 void
 addOutputs(CommandLine& line, Outputs& out)
 {
-  line.text("-out", "SCENE.pcd", "labelled scene: 0 background, i the i-th ITEM, then clutter",
-            out.scene);
+  line.text("-out", "SCENE.pcd",
+            "labelled scene: 0 background, i the i-th ITEM, then clutter (required)", out.scene);
   line.text("-poses", "POSES.csv", "pose (item to scene), centroid and points of what is there",
             out.poses);
   line.text("-empty", "EMPTY.pcd", "the same background without objects", out.empty);
@@ -143,8 +143,7 @@ requireConsistent(const CommandLine& line)
   for (const char* option : {"-scans", "-alone"})
     if (line.given(option) && !sensed)
       throw UsageError(std::string("option ") + option + ": give -views, too");
-  if (line.given("-noise") && sensed)
-    throw UsageError("option -noise: is for complete surfaces; with -views give -sensor_noise");
+  refuseNoiseOfViews(line);
 }
 
 int
@@ -152,20 +151,15 @@ generate(int argc, char** argv)
 {
   Job job;
   SceneOptions& o = job.scene;
-  std::string clutter;
-  std::uint64_t present = 0, unknown = 0, threads = 0;
+  SceneContents contents;
+  std::uint64_t threads = 0;
   CommandLine line(kProgram, "ITEM...",
                    "Makes a labelled scene of objects on a background. ITEM is the name of a shape "
                    "(see pcl_surflet_generate_shape)\nor FILE[:DIAMETER[:UP]], a mesh, its "
                    "diameter in the scene and which of its axes (x, y, z) points up.");
   addOutputs(line, job.out);
-  line.count("-present", "N", "items present, chosen at random, default all", present, 1, 1000000);
-  line.text("-clutter", "ITEM,...", "things unknown to the database", clutter);
-  line.count("-unknown", "N", "things present of the clutter, default all", unknown, 0, 1000000);
+  addContents(line, contents);
   addArrangement(line, o);
-  line.real("-density", "D", "points per squared unit, default 470000", o.density, 1e-9, 1e12);
-  line.real("-noise", "S", "moves points along their normals by up to S, default 0", o.noise, 0,
-            1e6);
   addSensor(line, job.sensing);
   addSeed(line, o.seed);
   addThreads(line, threads);
@@ -176,14 +170,8 @@ generate(int argc, char** argv)
   requireConsistent(line);
   job.sensing.threads = static_cast<unsigned>(threads);
   job.objects = itemsOf(line.files());
-  if (line.given("-clutter"))
-    job.clutter = itemsOf(parts(clutter, ','));
-  o.present = line.given("-present") ? present : job.objects.size();
-  o.clutter = line.given("-unknown") ? unknown : job.clutter.size();
-  if (o.present > job.objects.size() || o.clutter > job.clutter.size())
-    throw UsageError(std::string("option ") +
-                     (o.present > job.objects.size() ? "-present" : "-unknown") +
-                     ": so many things were not given");
+  job.clutter = clutterOf(line, contents);
+  settleContents(line, contents, job.objects.size(), job.clutter.size(), o);
   if (line.given("-models"))
     saveMeshes(line.files(), job.out.models);
   write(job, line.given("-views"));

@@ -106,7 +106,7 @@ run(int argc, char** argv)
                    "Reduces an oriented cloud to the mean surflet of each cubic cell: position and "
                    "normal\naveraged, the normal scaled to unit length. Other fields are those of "
                    "the cell's first\npoint. Cells whose normals cancel are left out and counted.");
-  line.real("-leaf", "S", "edge of a cell in the cloud's unit (needed)", o.leaf, 1e-30, 1e30);
+  line.real("-leaf", "S", "edge of a cell in the cloud's unit (required)", o.leaf, 1e-30, 1e30);
   line.real("-min_normal", "L",
             "leave out cells whose mean normal is shorter, in [0, 1], default " +
                 number(o.min_normal),

@@ -172,8 +172,8 @@ run(int argc, char** argv)
   CommandLine line(kProgram, "SCAN.pcd...",
                    "Takes in the scans of a scene one by one and tells after each what is found.\n"
                    "Scans lie in their sensor's frame; VIEWPOINT is its pose in the scene.");
-  line.text("-database", "DB.pcd", "models, made by pcl_surflet_train -bins 7,7,7,7 -leaf S",
-            o.database);
+  line.text("-database", "DB.pcd",
+            "models, made by pcl_surflet_train -bins 7,7,7,7 -leaf S (required)", o.database);
   line.option("-background", "ignore|model", "default ignore", [&o](const std::string& text) {
     if (text != "ignore" && text != "model")
       throw UsageError("option -background is ignore or model; for exclude give -empty");

@@ -4,6 +4,7 @@
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/surface_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 
@@ -71,6 +72,32 @@ itemsOf(const std::vector<std::string>& texts)
 }
 
 void
+addContents(CommandLine& line, SceneContents& o)
+{
+  line.count("-present", "N", "items present, chosen at random, default all", o.present, 1,
+             1000000);
+  line.text("-clutter", "ITEM,...", "things unknown to the database", o.clutter);
+  line.count("-unknown", "N", "things present of the clutter, default all", o.unknown, 0, 1000000);
+}
+
+std::vector<SceneItem>
+clutterOf(const CommandLine& line, const SceneContents& contents)
+{
+  return line.given("-clutter") ? itemsOf(parts(contents.clutter, ',')) : std::vector<SceneItem>();
+}
+
+void
+settleContents(const CommandLine& line, const SceneContents& contents, std::size_t objects,
+               std::size_t clutter, SceneOptions& o)
+{
+  o.present = line.given("-present") ? contents.present : objects;
+  o.clutter = line.given("-unknown") ? contents.unknown : clutter;
+  if (o.present > objects || o.clutter > clutter)
+    throw UsageError(std::string("option ") + (o.present > objects ? "-present" : "-unknown") +
+                     ": so many things were not given");
+}
+
+void
 saveMeshes(const std::vector<std::string>& texts, const std::string& directory)
 {
   std::error_code failure; // saveOff() will say it better
@@ -80,6 +107,43 @@ saveMeshes(const std::vector<std::string>& texts, const std::string& directory)
     const auto path = std::filesystem::path(directory) / (item.label + ".off");
     saveOff(item.mesh(), path.string());
   }
+}
+
+std::vector<std::string>
+labelsOf(const std::vector<SceneItem>& items)
+{
+  std::vector<std::string> labels;
+  labels.reserve(items.size());
+  for (const auto& item : items)
+    labels.push_back(item.label);
+  return labels;
+}
+
+void
+addNames(CommandLine& line, const std::string& option, const std::string& help,
+         const std::vector<std::string>& known, std::vector<std::string>& target)
+{
+  std::string names;
+  for (const auto& name : known)
+    names += (names.empty() ? "" : ", ") + name;
+  line.option(option, "NAME,...", help + ": " + names, [=, &target](const std::string& text) {
+    target = parts(text, ',');
+    for (const auto& name : target)
+      if (std::find(known.begin(), known.end(), name) == known.end())
+        throw UsageError("option " + option + ": there is no '" + name + "'; the names are " +
+                         names);
+  });
+}
+
+void
+addNumbers(CommandLine& line, const std::string& option, const std::string& value,
+           const std::string& help, double low, double high, std::vector<double>& target)
+{
+  line.option(option, value, help, [=, &target](const std::string& text) {
+    target.clear();
+    for (const auto& part : parts(text, ','))
+      target.push_back(parseReal(option, part, low, high));
+  });
 }
 
 void
@@ -108,6 +172,10 @@ addArrangement(CommandLine& line, SceneOptions& o)
             "apart, pair: centroids F times the smaller bounding radius apart, or more; default 1",
             o.distance_factor, 0, 1e6);
   line.real("-gap", "G", "pile: gap along the direction of pushing, default 0", o.gap, 0, 1e6);
+  line.real("-density", "D", "points per squared unit, default 470000", o.density, 1e-9, 1e12);
+  line.real("-noise", "S",
+            "complete surfaces: moves points along their normals by up to S, default 0", o.noise, 0,
+            1e6);
 }
 
 } // namespace apps

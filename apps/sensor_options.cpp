@@ -62,5 +62,12 @@ addSensor(CommandLine& line, SceneSensing& o)
             1e6);
 }
 
+void
+refuseNoiseOfViews(const CommandLine& line)
+{
+  if (line.given("-noise") && line.given("-views"))
+    throw UsageError("option -noise: is for complete surfaces; with -views give -sensor_noise");
+}
+
 } // namespace apps
 } // namespace pcl_surflet

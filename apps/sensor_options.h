@@ -13,5 +13,9 @@ namespace apps {
  * there is a sensor at all. */
 void addSensor(CommandLine& line, SceneSensing& target);
 
+/** \brief For programs with -noise, which moves the points of complete surfaces: sensors have
+ * -sensor_noise. \throws UsageError if -noise and -views are given together */
+void refuseNoiseOfViews(const CommandLine& line);
+
 } // namespace apps
 } // namespace pcl_surflet

@@ -9,8 +9,8 @@ namespace {
 void
 addOptions(CommandLine& line, InterpretOptions& o)
 {
-  line.text("-database", "DB.pcd", "models, made by pcl_surflet_train (best with -bins 7,7,7,7)",
-            o.database);
+  line.text("-database", "DB.pcd",
+            "models, made by pcl_surflet_train, best with -bins 7,7,7,7 (required)", o.database);
   addChoice<Method>(line, "-method", "default explanation", o.method,
                     {{"explanation", Method::Explanation}, {"dissertation", Method::Dissertation}});
   addChoice<BackgroundTreatment>(line, "-background", "default ignore", o.background,
@@ -24,7 +24,7 @@ addOptions(CommandLine& line, InterpretOptions& o)
             o.distance, 1e-9, 1e9);
   line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
             1e-9, 1e9);
-  line.count("-max", "N", "detections, those of the most points, default all", o.detections, 1,
+  line.count("-max", "N", "detections, those of the most cells, default all", o.detections, 1,
              1000000);
   line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
             o.min_confidence, 0, 1);

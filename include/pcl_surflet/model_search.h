@@ -28,9 +28,9 @@ struct SearchHit {
  * by their likelihood, as HistogramClassifier does with sizes normalised. The shortlist is the only
  * approximation: searchAll() does without.
  *
- * Takes 8 bytes a bin and member. Const methods may be called from several threads. Results depend
- * on models, their order and parameters alone, provided that no other thread draws from rand()
- * while models are added (FLANN does). */
+ * Takes 14 bytes a bin and member (doc/memory.md). Const methods may be called from several
+ * threads. Results depend on models, their order and parameters alone, provided that no other
+ * thread draws from rand() while models are added (FLANN does). */
 class PCL_SURFLET_API ModelSearch {
 public:
   /** \brief \param resolution of all models
@@ -60,7 +60,8 @@ public:
   void setSeed(std::uint64_t seed); ///< of the pairs drawn of a query, default 1
 
   /** \brief The \p k best models, best first; fewer if the shortlist holds no more. Empty for a
-   * query without features. */
+   * query without features. \param query surflets as HistogramClassifier::classify() takes them
+   * \param k most hits, 0: none */
   std::vector<SearchHit> search(const SurfletSet& query, std::size_t k) const;
   /** \brief The same, of a query that is a histogram already (ModelMember::histogram). Empty if it
    * is all zero. \throws std::invalid_argument if its size is not that of the resolution */

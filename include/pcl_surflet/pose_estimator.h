@@ -3,12 +3,9 @@
 #pragma once
 
 #include "pcl_surflet/compat.h"
-#include "pcl_surflet/conversions.h"
-#include "pcl_surflet/impl/oriented_input.h"
 #include "pcl_surflet/recognition/pose.h"
 #include "pcl_surflet/scene_interpreter.h"
 
-#include <pcl/console/print.h>
 #include <pcl/pcl_base.h>
 
 #include <Eigen/Geometry>
@@ -29,10 +26,14 @@ PCL_SURFLET_API std::vector<PoseModel> loadPoseModels(const std::string& directo
 /** \brief The rotation and translation as PCL's users know them. */
 PCL_SURFLET_API Eigen::Isometry3f toIsometry(const RigidMotion& motion);
 
+namespace detail {
+
 /** \brief The points of \p scene within \p radius of the middle of \p cluster, but those whose
  * \p taken is not 0 (as many as \p scene). */
 PCL_SURFLET_API SurfletSet pointsBeside(const SurfletSet& scene, const std::vector<char>& taken,
                                         const SurfletSet& cluster, double radius);
+
+} // namespace detail
 
 /** \brief Estimates the poses of what SceneInterpreter found [Wahl 2007, Sec. 6.4].
  *
@@ -87,66 +88,24 @@ public:
   }
 
   /** \brief A pose for every detection, in their order; PoseStatus::NoModel where no model has its
-   * label. \return nothing after misuse, which PCL_ERROR tells */
+   * label.
+   * \param detections of the input cloud, as SceneInterpreter found them
+   * \return nothing after misuse (no input, no normals, detections of another cloud), which
+   * PCL_ERROR tells \throws std::invalid_argument if a parameter is out of range */
   std::vector<PoseEstimate> estimate(const std::vector<SceneDetection>& detections);
 
 private:
   const PoseModel* modelOf(const std::string& label) const;
+  /** \brief Which points are in a detection. \return false after an error */
+  bool markPoints(const std::vector<SceneDetection>& detections, std::vector<char>& taken) const;
 
   typename Normals::ConstPtr normals_;
   std::vector<PoseModel> models_;
   PoseParameters parameters_;
 };
 
-template <typename PointT, typename PointNT>
-const PoseModel*
-PoseEstimator<PointT, PointNT>::modelOf(const std::string& label) const
-{
-  for (const auto& model : models_)
-    if (model.label() == label)
-      return &model;
-  return nullptr;
-}
-
-template <typename PointT, typename PointNT>
-std::vector<PoseEstimate>
-PoseEstimator<PointT, PointNT>::estimate(const std::vector<SceneDetection>& detections)
-{
-  std::vector<PoseEstimate> poses;
-  ConvertedSurflets all;
-  if (!this->initCompute() ||
-      !detail::convertInput<PointT, PointNT>("PoseEstimator", this->input_, this->input_, normals_,
-                                             *this->indices_, all))
-    return poses;
-  std::vector<char> taken_points(this->input_->size(), 0);
-  for (const auto& d : detections)
-    for (const auto i : d.indices) {
-      if (i < 0 || static_cast<std::size_t>(i) >= taken_points.size()) {
-        PCL_ERROR("[pcl_surflet::PoseEstimator::estimate] '%s' has a point outside the cloud: "
-                  "detections must be of this cloud.\n",
-                  d.label.c_str());
-        return poses;
-      }
-      taken_points[static_cast<std::size_t>(i)] = 1;
-    }
-  std::vector<char> taken(all.surflets.size(), 0);
-  for (std::size_t k = 0; k < taken.size(); ++k)
-    taken[k] = taken_points[static_cast<std::size_t>(all.indices[k])];
-  const auto normals = detail::normalsOrInput<PointT, PointNT>(this->input_, normals_);
-  for (const auto& d : detections) {
-    const PoseModel* model = modelOf(d.label);
-    if (model == nullptr) {
-      poses.emplace_back();
-      poses.back().status = PoseStatus::NoModel;
-      poses.back().reason = "there is no pose model named '" + d.label + "': see setModels()";
-      continue;
-    }
-    const SurfletSet cluster = toSurflets(*this->input_, *normals, d.indices).surflets;
-    poses.push_back(estimatePose(cluster, *model, parameters_,
-                                 pointsBeside(all.surflets, taken, cluster, model->diameter())));
-  }
-  this->deinitCompute();
-  return poses;
-}
-
 } // namespace pcl_surflet
+
+#ifdef PCL_NO_PRECOMPILE
+#include "pcl_surflet/impl/pose_estimator.hpp"
+#endif

@@ -43,7 +43,7 @@ PCL_SURFLET_API SurfaceFile loadSurface(const std::string& path,
                                         const SurfaceFileOptions& options = {});
 
 /** \brief The surflets of a file: those of the points, or about \p mesh_surflets drawn evenly from
- * the mesh (sampleIsoMesh() with \p seed). */
+ * the mesh (sampleIsoMesh() with \p seed, whose errors come through). */
 PCL_SURFLET_API SurfletSet surfletsOf(const SurfaceFile& file, std::size_t mesh_surflets,
                                       std::uint64_t seed);
 

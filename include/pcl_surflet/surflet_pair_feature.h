@@ -2,13 +2,12 @@
  * SurfletPairFeature: the features of the pairs of an oriented cloud. */
 #pragma once
 
-#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/surflet_set.h"
+#include "pcl_surflet/impl/whole_cloud_feature.h"
 #include "pcl_surflet/point_types.h"
 
-#include <pcl/features/feature.h>
-
 #include <cstdint>
+#include <vector>
 
 namespace pcl_surflet {
 
@@ -55,17 +54,15 @@ computePairSignatures(const SurfletSet& surflets, const PairFeatureRequest& requ
  * is empty.
  *
  * For clouds of a type with normals (pcl::PointNormal) the input serves as normals unless others
- * are set. The result does not depend on the number of threads.
- *
- * \author the pcl_surflet authors */
+ * are set. The result does not depend on the number of threads. */
 template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairSignature>
-class SurfletPairFeature : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
+class SurfletPairFeature : public detail::WholeCloudFeature<PointInT, PointNT, PointOutT> {
 public:
   ///@{
   /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<SurfletPairFeature<PointInT, PointNT, PointOutT>>;
   using ConstPtr = pcl::shared_ptr<const SurfletPairFeature<PointInT, PointNT, PointOutT>>;
-  using PointCloudOut = typename pcl::Feature<PointInT, PointOutT>::PointCloudOut;
+  using typename detail::WholeCloudFeature<PointInT, PointNT, PointOutT>::PointCloudOut;
   ///@}
 
   SurfletPairFeature() { this->feature_name_ = "SurfletPairFeature"; }
@@ -117,9 +114,13 @@ public:
     return rejected_;
   }
 
-  /** \brief Computes the features; hides pcl::Feature::compute(), which would make one output per
-   * point. */
-  void compute(PointCloudOut& output);
+  /** \brief See detail::WholeCloudFeature::compute(). */
+  void
+  compute(PointCloudOut& output)
+  {
+    rejected_ = 0;
+    detail::WholeCloudFeature<PointInT, PointNT, PointOutT>::compute(output);
+  }
 
 private:
   void computeFeature(PointCloudOut& output) override;

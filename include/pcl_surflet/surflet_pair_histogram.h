@@ -2,12 +2,10 @@
  * SurfletPairHistogramEstimation: one histogram per cloud, where VFHEstimation stands. */
 #pragma once
 
-#include "pcl_surflet/compat.h"
 #include "pcl_surflet/core/pair_histogram.h"
 #include "pcl_surflet/core/surflet_set.h"
+#include "pcl_surflet/impl/whole_cloud_feature.h"
 #include "pcl_surflet/point_types.h"
-
-#include <pcl/features/feature.h>
 
 #include <cstdint>
 #include <string>
@@ -60,14 +58,14 @@ PCL_SURFLET_API std::vector<float> computePairHistogram(const SurfletSet& surfle
  * output is empty. */
 template <typename PointInT, typename PointNT, typename PointOutT = SurfletPairHistogram625>
 class SurfletPairHistogramEstimation
-    : public pcl::FeatureFromNormals<PointInT, PointNT, PointOutT> {
+    : public detail::WholeCloudFeature<PointInT, PointNT, PointOutT> {
 public:
   ///@{
   /** \brief As PCL's classes have it. */
   using Ptr = pcl::shared_ptr<SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>>;
   using ConstPtr =
       pcl::shared_ptr<const SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>>;
-  using PointCloudOut = typename pcl::Feature<PointInT, PointOutT>::PointCloudOut;
+  using typename detail::WholeCloudFeature<PointInT, PointNT, PointOutT>::PointCloudOut;
   ///@}
 
   SurfletPairHistogramEstimation() { this->feature_name_ = "SurfletPairHistogramEstimation"; }
@@ -104,10 +102,6 @@ public:
   {
     request_.threads = threads;
   }
-
-  /** \brief Computes the descriptor; hides pcl::Feature::compute(), which would make one output per
-   * point. */
-  void compute(PointCloudOut& output);
 
 private:
   void computeFeature(PointCloudOut& output) override;

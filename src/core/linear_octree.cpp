@@ -374,10 +374,4 @@ LinearOctree::coordinates() const
   return {data_->x.data(), data_->y.data(), data_->z.data()};
 }
 
-const char*
-LinearOctree::instructionSetName() const
-{
-  return data_->kernels->name;
-}
-
 } // namespace pcl_surflet

@@ -1,31 +1,17 @@
 #include "pcl_surflet/core/surflet_pair.h"
 
+#include "core/vector3.h"
+
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace pcl_surflet {
 namespace {
 
-using Vec3 = std::array<double, 3>;
-
-Vec3
-operator-(const Vec3& a, const Vec3& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-double
-dot(const Vec3& a, const Vec3& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-Vec3
-cross(const Vec3& a, const Vec3& b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
+using detail::cross;
+using detail::dot;
+using detail::subtract;
+using detail::Vector3;
 
 /** \brief Is p2 the origin [Wahl 2007, Eq. 2.2]? \p a = n1.d, \p b = n2.d, d = p2 - p1.
  *
@@ -50,9 +36,9 @@ computePairFeature(const Surflet& s1, const Surflet& s2)
 std::optional<PairFeature>
 computePairFeature(const Surflet& s1, const Surflet& s2, bool& origin_is_second)
 {
-  Vec3 p1{s1.x, s1.y, s1.z}, n1{s1.nx, s1.ny, s1.nz};
-  Vec3 p2{s2.x, s2.y, s2.z}, n2{s2.nx, s2.ny, s2.nz};
-  Vec3 d = p2 - p1;
+  Vector3 p1{s1.x, s1.y, s1.z}, n1{s1.nx, s1.ny, s1.nz};
+  Vector3 p2{s2.x, s2.y, s2.z}, n2{s2.nx, s2.ny, s2.nz};
+  Vector3 d = subtract(p2, p1);
   const double length = std::sqrt(dot(d, d));
   if (!(length > 0) || !std::isfinite(length) || !std::isfinite(dot(n1, n1) + dot(n2, n2)))
     return std::nullopt;
@@ -60,16 +46,16 @@ computePairFeature(const Surflet& s1, const Surflet& s2, bool& origin_is_second)
   const bool swap = originIsSecond(dot(n1, d), dot(n2, d));
   if (swap) {
     std::swap(n1, n2);
-    d = p1 - p2;
+    d = subtract(p1, p2);
   }
-  const Vec3& u = n1;   // Eq. 2.3
-  Vec3 v = cross(d, u); // Eq. 2.4
+  const Vector3& u = n1;   // Eq. 2.3
+  Vector3 v = cross(d, u); // Eq. 2.4
   const double v_squared = dot(v, v);
   if (!(v_squared > kCollinearityTolerance * length * length))
     return std::nullopt;
   for (double& c : v)
     c /= std::sqrt(v_squared);
-  const Vec3 w = cross(u, v); // Eq. 2.5
+  const Vector3 w = cross(u, v); // Eq. 2.5
 
   origin_is_second = swap;
   PairFeature f;

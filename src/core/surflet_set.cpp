@@ -10,6 +10,22 @@ namespace {
 /** \brief Squared lengths this close to 1 are those of a unit vector in single precision. */
 constexpr double kUnitTolerance = 4e-7;
 
+/** \brief Of a set that is not empty. */
+void
+setToMeanPosition(const SurfletSet& set, double (&mean)[3])
+{
+  double x = 0, y = 0, z = 0; // three independent chains of additions
+  for (std::size_t i = 0; i < set.size(); ++i) {
+    x += set.x[i];
+    y += set.y[i];
+    z += set.z[i];
+  }
+  const auto n = static_cast<double>(set.size());
+  mean[0] = x / n;
+  mean[1] = y / n;
+  mean[2] = z / n;
+}
+
 } // namespace
 
 void
@@ -74,13 +90,7 @@ computeExtent(const SurfletSet& set)
   const std::size_t n = set.size();
   if (n == 0)
     return e;
-  for (std::size_t i = 0; i < n; ++i) {
-    e.centroid[0] += set.x[i];
-    e.centroid[1] += set.y[i];
-    e.centroid[2] += set.z[i];
-  }
-  for (double& c : e.centroid)
-    c /= static_cast<double>(n);
+  setToMeanPosition(set, e.centroid);
   double sum = 0;
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < n; ++i) {
@@ -103,14 +113,8 @@ toUnitScale(const SurfletSet& set)
   const std::size_t n = set.size();
   if (n == 0)
     return unit;
-  double centre[3] = {0, 0, 0};
-  for (std::size_t i = 0; i < n; ++i) { // three independent chains of additions
-    centre[0] += set.x[i];
-    centre[1] += set.y[i];
-    centre[2] += set.z[i];
-  }
-  for (double& c : centre)
-    c /= static_cast<double>(n);
+  double centre[3];
+  setToMeanPosition(set, centre);
   double reach[3] = {0, 0, 0};
   for (std::size_t i = 0; i < n; ++i) {
     reach[0] = std::max(reach[0], std::abs(set.x[i] - centre[0]));

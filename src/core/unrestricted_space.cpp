@@ -165,15 +165,6 @@ UnrestrictedSpace::cellCount() const
   return cells;
 }
 
-std::vector<SuperKey>
-UnrestrictedSpace::superKeys() const
-{
-  std::vector<SuperKey> keys;
-  for (const auto& cube : cubes_)
-    keys.push_back(cube.first);
-  return keys;
-}
-
 void
 UnrestrictedSpace::forEachCell(const std::function<void(const Cell&)>& visit) const
 {

@@ -1,5 +1,5 @@
 /** \file
- * Double-precision vectors of three for the meshes and shapes; internal, not installed. */
+ * Double-precision vectors of three; internal, not installed. */
 #pragma once
 
 #include <array>

@@ -66,7 +66,6 @@ using RegionSearchKernel = void (*)(const RegionTree&, const RegionQuery&, Regio
 
 /** \brief One instruction set's kernels. All sets return the same bits in the same order. */
 struct RegionKernels {
-  const char* name;
   RegionSearchKernel indices;   ///< border hits: the user's indices
   RegionSearchKernel distances; ///< every hit: the user's index and the squared distance
   RegionSearchKernel positions; ///< border hits: positions in the sorted arrays

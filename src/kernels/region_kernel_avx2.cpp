@@ -3,8 +3,6 @@
 
 #include <immintrin.h>
 
-#define PCL_SURFLET_KERNEL_NAME "avx2"
-
 namespace pcl_surflet {
 namespace kernels {
 

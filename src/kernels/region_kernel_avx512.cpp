@@ -3,8 +3,6 @@
 
 #include <immintrin.h>
 
-#define PCL_SURFLET_KERNEL_NAME "avx512"
-
 namespace pcl_surflet {
 namespace kernels {
 

@@ -5,8 +5,6 @@
 // margin is needed anywhere.
 #include "region_kernel.h"
 
-#define PCL_SURFLET_KERNEL_NAME "scalar"
-
 namespace pcl_surflet {
 namespace kernels {
 

@@ -102,5 +102,5 @@ filterOneRun(const RegionTree& tree, const RegionQuery& query, std::uint32_t beg
   sink.size = filterRun<kDistances>(tree, query, begin, end, sink.size, sink);
 }
 
-const RegionKernels kKernels = {PCL_SURFLET_KERNEL_NAME, search<kIndices>, search<kDistances>,
-                                search<kPositions>,      filterOneRun,     childDistances};
+const RegionKernels kKernels = {search<kIndices>, search<kDistances>, search<kPositions>,
+                                filterOneRun, childDistances};

@@ -141,6 +141,6 @@ MeanSurfletGrid<pcl::PCLPointCloud2>::applyFilter(pcl::PCLPointCloud2& output)
 
 } // namespace pcl_surflet
 
-PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointNormal)
-    PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointXYZINormal)
-        PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointXYZRGBNormal)
+PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointNormal);
+PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointXYZINormal);
+PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(pcl::PointXYZRGBNormal);

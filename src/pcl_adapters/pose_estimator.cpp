@@ -1,6 +1,7 @@
-#include "pcl_surflet/pose_estimator.h"
-
+#include "pcl_surflet/impl/pose_estimator.hpp"
 #include "pcl_surflet/surface_file.h"
+
+#include <pcl/point_types.h>
 
 #include <algorithm>
 #include <cctype>
@@ -68,8 +69,8 @@ toIsometry(const RigidMotion& motion)
 }
 
 SurfletSet
-pointsBeside(const SurfletSet& scene, const std::vector<char>& taken, const SurfletSet& cluster,
-             double radius)
+detail::pointsBeside(const SurfletSet& scene, const std::vector<char>& taken,
+                     const SurfletSet& cluster, double radius)
 {
   const Extent extent = computeExtent(cluster);
   const auto& c = extent.centroid;
@@ -83,3 +84,8 @@ pointsBeside(const SurfletSet& scene, const std::vector<char>& taken, const Surf
 }
 
 } // namespace pcl_surflet
+
+PCL_SURFLET_INSTANTIATE_PoseEstimator(pcl::PointXYZ, pcl::Normal);
+PCL_SURFLET_INSTANTIATE_PoseEstimator(pcl::PointXYZRGB, pcl::Normal);
+PCL_SURFLET_INSTANTIATE_PoseEstimator(pcl::PointNormal, pcl::PointNormal);
+PCL_SURFLET_INSTANTIATE_PoseEstimator(pcl::PointXYZRGBNormal, pcl::PointXYZRGBNormal);

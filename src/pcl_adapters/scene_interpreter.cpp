@@ -293,7 +293,7 @@ detail::interpretPoints(const ConvertedSurflets& points, const ModelDatabase& da
 
 } // namespace pcl_surflet
 
-PCL_INSTANTIATE_SceneInterpreter(pcl::PointXYZ, pcl::Normal)
-    PCL_INSTANTIATE_SceneInterpreter(pcl::PointXYZRGB, pcl::Normal)
-        PCL_INSTANTIATE_SceneInterpreter(pcl::PointNormal, pcl::PointNormal)
-            PCL_INSTANTIATE_SceneInterpreter(pcl::PointXYZRGBNormal, pcl::PointXYZRGBNormal)
+PCL_SURFLET_INSTANTIATE_SceneInterpreter(pcl::PointXYZ, pcl::Normal);
+PCL_SURFLET_INSTANTIATE_SceneInterpreter(pcl::PointXYZRGB, pcl::Normal);
+PCL_SURFLET_INSTANTIATE_SceneInterpreter(pcl::PointNormal, pcl::PointNormal);
+PCL_SURFLET_INSTANTIATE_SceneInterpreter(pcl::PointXYZRGBNormal, pcl::PointXYZRGBNormal);

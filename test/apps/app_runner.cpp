@@ -100,19 +100,6 @@ run(const std::string& app, const std::vector<std::string>& arguments, const std
   return Running(command, out).wait();
 }
 
-std::string
-readFile(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
-void
-writeFile(const std::string& path, const std::string& content)
-{
-  std::ofstream(path, std::ios::binary) << content;
-}
-
 std::vector<std::vector<std::string>>
 parseCsv(const std::string& text)
 {
@@ -150,19 +137,6 @@ ended(const AppRun& run, int code, const std::vector<std::string>& words)
 }
 
 void
-Apps::SetUp()
-{
-  directory_ = fs::temp_directory_path() / ("surflet_apps_" + std::to_string(::getpid()));
-  fs::create_directories(directory_);
-}
-
-void
-Apps::TearDown()
-{
-  fs::remove_all(directory_);
-}
-
-void
 Apps::makeShapes()
 {
   ASSERT_EQ(run("generate_shape", {"sphere", path("ball.pcd"), "-points", "2000"}).code, 0);
@@ -177,6 +151,19 @@ Apps::makeDatabase()
   const AppRun r = run("train", {"-database", path("db.pcd"), "-pairs", "200000", path("ball.pcd"),
                                  path("die.ply"), path("cup.off")});
   ASSERT_TRUE(ended(r, 0, {"added 'ball'", "added 'die'", "added 'cup'"}));
+}
+
+void
+Apps::makeSceneDatabase(const std::vector<std::string>& shapes, const std::string& points)
+{
+  for (const auto& shape : shapes) {
+    const std::string cloud = path(shape + ".pcd");
+    ASSERT_EQ(run("generate_shape", {shape, cloud, "-points", points}).code, 0);
+    ASSERT_EQ(
+        run("train", {"-database", path("db.pcd"), "-bins", "7,7,7,7", "-pairs", "1000000", cloud})
+            .code,
+        0);
+  }
 }
 
 } // namespace test

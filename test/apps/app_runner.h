@@ -2,10 +2,11 @@
  * Runs the pcl_surflet_* programs as a user's shell would. */
 #pragma once
 
+#include "../test_files.h"
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -48,29 +49,18 @@ private:
 AppRun run(const std::string& app, const std::vector<std::string>& arguments,
            const std::string& out = {});
 
-std::string readFile(const std::string& path);
-void writeFile(const std::string& path, const std::string& content);
-
 /** \brief Rows and fields of a CSV text. */
 std::vector<std::vector<std::string>> parseCsv(const std::string& text);
 
 /** \brief Every test has a directory of its own, with a few shapes and a database of them. */
-class Apps : public testing::Test {
+class Apps : public FileTest {
 protected:
-  void SetUp() override;
-  void TearDown() override;
-
-  std::string
-  path(const std::string& name) const
-  {
-    return (directory_ / name).string();
-  }
   /** \brief Makes ball.pcd, die.ply and cup.off. */
   void makeShapes();
   /** \brief makeShapes() and db.pcd of the three. */
   void makeDatabase();
-
-  std::filesystem::path directory_;
+  /** \brief Makes SHAPE.pcd of so many points for each, and db.pcd of them for scenes. */
+  void makeSceneDatabase(const std::vector<std::string>& shapes, const std::string& points);
 };
 
 /** \brief The run ended with \p code and said every one of \p words on stderr. */

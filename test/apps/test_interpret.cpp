@@ -14,14 +14,7 @@ protected:
   void
   SetUp() override
   {
-    Apps::SetUp();
-    for (const std::string shape : {"bottle", "torus"}) {
-      ASSERT_EQ(run("generate_shape", {shape, path(shape + ".pcd"), "-points", "20000"}).code, 0);
-      ASSERT_EQ(run("train", {"-database", path("db.pcd"), "-bins", "7,7,7,7", "-pairs", "1000000",
-                              path(shape + ".pcd")})
-                    .code,
-                0);
-    }
+    ASSERT_NO_FATAL_FAILURE(makeSceneDatabase({"bottle", "torus"}, "20000"));
     ASSERT_EQ(run("generate", {"-out", path("s.pcd"), "-poses", path("p.csv"), "-empty",
                                path("e.pcd"), "-density", "100000", "bottle", "torus"})
                   .code,

@@ -12,12 +12,7 @@ protected:
   void
   SetUp() override
   {
-    Apps::SetUp();
-    ASSERT_EQ(run("generate_shape", {"torus", path("torus.pcd"), "-points", "20000"}).code, 0);
-    ASSERT_EQ(run("train", {"-database", path("db.pcd"), "-bins", "7,7,7,7", "-pairs", "1000000",
-                            path("torus.pcd")})
-                  .code,
-              0);
+    ASSERT_NO_FATAL_FAILURE(makeSceneDatabase({"torus"}, "20000"));
     ASSERT_EQ(run("generate", {"-out", path("s.pcd"), "-scans", path("scans"), "-empty",
                                path("e.pcd"), "-views", "pass", "-stops", "4", "-path", "0.4",
                                "-pixels", "160x120", "-distance", "0.7", "-size", "0.5", "torus"})

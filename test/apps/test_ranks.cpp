@@ -58,7 +58,6 @@ protected:
     for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM",
                              "OMPI_MCA_rmaps_base_oversubscribe"})
       ::setenv(name, "1", 1);
-    Apps::SetUp();
   }
 
   static Words
@@ -179,13 +178,7 @@ TEST_F(RanksTest, InterpretTheSame)
             .code,
         0);
   }
-  for (const std::string shape : {"bottle", "torus"}) {
-    ASSERT_EQ(run("generate_shape", {shape, path(shape + ".pcd"), "-points", "8000"}).code, 0);
-    ASSERT_EQ(run("train", {"-database", path("db.pcd"), "-bins", "7,7,7,7", "-pairs", "1000000",
-                            path(shape + ".pcd")})
-                  .code,
-              0);
-  }
+  ASSERT_NO_FATAL_FAILURE(makeSceneDatabase({"bottle", "torus"}, "8000"));
   writeFile(path("bad.pcd"), "nonsense");
   scenes.insert(scenes.begin() + 1, path("bad.pcd"));
   const auto line = [&](const std::string& directory) {
@@ -306,7 +299,6 @@ protected:
   {
     for (const char* name : {"OMPI_ALLOW_RUN_AS_ROOT", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM"})
       ::setenv(name, "1", 1);
-    Apps::SetUp();
     ::setenv("PMI_SIZE", "2", 1);
   }
   void
@@ -314,7 +306,6 @@ protected:
   {
     ::unsetenv("PMI_SIZE");
     ::unsetenv("PCL_SURFLET_MPI");
-    Apps::TearDown();
   }
 };
 

@@ -28,6 +28,43 @@ expectWrong(const std::vector<WrongLine>& lines)
   }
 }
 
+/** \brief Words that the help of an app must have. */
+const std::vector<std::pair<std::string, std::vector<std::string>>> kOptions = {
+    {"train",
+     {"-database", "-label", "-background", "-bins", "-bank", "-pairs", "-leaf", "-seed",
+      "-threads", "-k"}},
+    {"classify",
+     {"-database", "-criterion", "-features", "-top", "-unknown", "-scale_normalized", "-seed",
+      "-threads", "-k", "-csv"}},
+    {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
+    {"info", {"-csv"}},
+    {"search",
+     {"-database", "-classes", "-top", "-features", "-shortlist", "-exhaustive", "-seed",
+      "-threads", "-k", "-csv"}},
+    {"reduce", {"-leaf", "-min_normal", "-csv"}},
+    {"replay",
+     {"-database", "-background", "-empty", "-leaf", "-behind", "-out", "-csv", "-seed",
+      "-threads"}},
+    {"evaluate_online",
+     {"-scenes", "-lengths", "-per_length", "-stride", "-leaf", "-stale", "-behind", "-batch_every",
+      "-take", "-csv", "-seed", "-threads"}},
+    {"evaluate", {"-method",   "-treatment", "-scenes",     "-bins",    "-leaf",        "-pairs",
+                  "-lambda_h", "-lambda_o",  "-lambda_c",   "-min_fit", "-on_surfaces", "-present",
+                  "-clutter",  "-unknown",   "-background", "-density", "-noise",       "-csv",
+                  "-verbose",  "-seed",      "-threads",    "-row",     "-peers",       "-memory",
+                  "-critical", "-scaling",   "-times",      "-extra",   "classic_vfh"}},
+    {"interpret",
+     {"-database", "-method", "-background", "-empty", "-planes", "-distance", "-leaf", "-max",
+      "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads", "-pose",
+      "-viewpoints"}},
+    {"view",
+     {"-database", "-picture", "-width", "-height", "-azimuth", "-elevation", "-zoom", "-point",
+      "-overlay"}},
+    {"generate",
+     {"-out", "-poses", "-empty", "-models", "-present", "-clutter", "-unknown", "-background",
+      "-size", "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise", "-seed"}},
+    {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
+
 } // namespace
 
 TEST(Usage, HelpGoesToStdoutAndSucceeds)
@@ -58,44 +95,7 @@ TEST(Usage, VersionIsThatOfTheProject)
 
 TEST(Usage, HelpNamesEveryOption)
 {
-  const std::vector<std::pair<std::string, std::vector<std::string>>> options = {
-      {"train",
-       {"-database", "-label", "-background", "-bins", "-bank", "-pairs", "-leaf", "-seed",
-        "-threads", "-k"}},
-      {"classify",
-       {"-database", "-criterion", "-features", "-top", "-unknown", "-scale_normalized", "-seed",
-        "-threads", "-k", "-csv"}},
-      {"feature", {"-delta_max", "-pairs", "-seed", "-k"}},
-      {"info", {"-csv"}},
-      {"search",
-       {"-database", "-classes", "-top", "-features", "-shortlist", "-exhaustive", "-seed",
-        "-threads", "-k", "-csv"}},
-      {"reduce", {"-leaf", "-min_normal", "-csv"}},
-      {"replay",
-       {"-database", "-background", "-empty", "-leaf", "-behind", "-out", "-csv", "-seed",
-        "-threads"}},
-      {"evaluate_online",
-       {"-scenes", "-lengths", "-per_length", "-stride", "-leaf", "-stale", "-behind",
-        "-batch_every", "-take", "-csv", "-seed", "-threads"}},
-      {"evaluate",
-       {"-method",   "-treatment", "-scenes",     "-bins",    "-leaf",        "-pairs",
-        "-lambda_h", "-lambda_o",  "-lambda_c",   "-min_fit", "-on_surfaces", "-present",
-        "-clutter",  "-unknown",   "-background", "-density", "-noise",       "-csv",
-        "-verbose",  "-seed",      "-threads",    "-row",     "-peers",       "-memory",
-        "-critical", "-scaling",   "-times",      "-extra",   "classic_vfh"}},
-      {"interpret",
-       {"-database", "-method", "-background", "-empty", "-planes", "-distance", "-leaf", "-max",
-        "-out", "-objects_dir", "-picture", "-csv", "-verbose", "-k", "-seed", "-threads", "-pose",
-        "-viewpoints"}},
-      {"view",
-       {"-database", "-picture", "-width", "-height", "-azimuth", "-elevation", "-zoom", "-point",
-        "-overlay"}},
-      {"generate",
-       {"-out", "-poses", "-empty", "-models", "-present", "-clutter", "-unknown", "-background",
-        "-size", "-wall", "-posture", "-spacing", "-factor", "-gap", "-density", "-noise",
-        "-seed"}},
-      {"generate_shape", {"-points", "-noise", "-seed", "wine_glass"}}};
-  for (const auto& [app, names] : options) {
+  for (const auto& [app, names] : kOptions) {
     const std::string help = run(app, {"-h"}).out;
     for (const auto& name : names)
       EXPECT_NE(help.find(name), std::string::npos) << app << " " << name;
@@ -121,6 +121,8 @@ TEST(Usage, UnknownOptionsAndMissingArgumentsAreNamed)
        {"info", {}, "DB.pcd"},
        {"info", {"a.pcd", "b.pcd"}, "b.pcd"},
        {"evaluate", {"-csv"}, "ITEM"},
+       {"evaluate_pose", {"-views", "one", "-noise", "0.1", "cup"}, "-noise"},
+       {"evaluate_peers", {"-views", "one", "-noise", "0.1", "cup"}, "-noise"},
        {"interpret", {"s.pcd"}, "-database"},
        {"interpret", {"-database", "d.pcd"}, "SCENE"},
        {"interpret", {"-database", "d.pcd", "-out", "o.pcd", "a.pcd", "b.pcd"}, "b.pcd"},

@@ -1,4 +1,5 @@
 #include "../full_disk.h"
+#include "../test_files.h"
 
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/core/shapes.h"
@@ -7,10 +8,8 @@
 
 #include <clocale>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <locale>
-#include <sstream>
 #include <string>
 
 #include <fcntl.h>
@@ -23,32 +22,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-class MeshFile : public ::testing::Test {
+class MeshFile : public test::FileTest {
 protected:
-  void
-  SetUp() override
-  {
-    const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
-    directory_ = fs::temp_directory_path() /
-                 ("pcl_surflet_" + std::string(info->name()) + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void
-  TearDown() override
-  {
-    fs::remove_all(directory_);
-  }
-
-  std::string
-  path(const std::string& name) const
-  {
-    return (directory_ / name).string();
-  }
-
   TriangleMesh
   load(const std::string& text)
   {
-    std::ofstream(path("mesh.off"), std::ios::binary) << text;
+    test::writeFile(path("mesh.off"), text);
     return loadOff(path("mesh.off"));
   }
 
@@ -83,8 +62,6 @@ protected:
     return static_cast<std::size_t>(
         std::distance(fs::directory_iterator(directory_), fs::directory_iterator()));
   }
-
-  fs::path directory_;
 };
 
 const std::string kTriangle = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
@@ -100,14 +77,6 @@ expectTriangle(const TriangleMesh& mesh)
 {
   EXPECT_EQ(mesh.vertices, (std::vector<TriangleMesh::Point>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh.triangles, (std::vector<TriangleMesh::Triangle>{{0, 1, 2}}));
-}
-
-std::string
-contentOf(const std::string& path)
-{
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
 }
 
 } // namespace
@@ -193,8 +162,8 @@ TEST_F(MeshFile, ReadsAndWritesTheSameInEveryLocale)
   std::locale::global(before);
   std::setlocale(LC_ALL, "C");
   EXPECT_EQ(mesh.vertices[1][0], 1.5f);
-  EXPECT_CONTAINS(contentOf(path("saved.off")), "1234 1 0\n");
-  EXPECT_CONTAINS(contentOf(path("saved.off")), "1.5 0 0\n");
+  EXPECT_CONTAINS(test::readFile(path("saved.off")), "1234 1 0\n");
+  EXPECT_CONTAINS(test::readFile(path("saved.off")), "1.5 0 0\n");
   EXPECT_EQ(loadOff(path("saved.off")).vertices, mesh.vertices);
 }
 
@@ -319,7 +288,7 @@ TEST_F(MeshFile, GivesBackWhatWasSaved)
 TEST_F(MeshFile, OverwritesKeepingLinksAndPermissions)
 {
   const TriangleMesh mesh = load(kTriangle);
-  std::ofstream(path("old.off")) << "old";
+  test::writeFile(path("old.off"), "old");
   fs::permissions(path("old.off"), fs::perms::owner_read | fs::perms::owner_write);
   fs::create_symlink("old.off", path("link.off"));
   saveOff(mesh, path("link.off"));
@@ -346,14 +315,14 @@ TEST_F(MeshFile, ReportsWhatCannotBeWritten)
 TEST_F(MeshFile, KeepsTheOldFileWhenWritingFails)
 {
   const TriangleMesh mesh = meshOfShape(*shapeByName("torus"), 0.01);
-  std::ofstream(path("old.off")) << "old";
+  test::writeFile(path("old.off"), "old");
   const std::string message = [&] {
     const test::FullDisk full(4096);
     return saveFailure(mesh, path("old.off"));
   }();
   EXPECT_CONTAINS(message, "File too large");
   EXPECT_CONTAINS(message, "free space");
-  EXPECT_EQ(contentOf(path("old.off")), "old");
+  EXPECT_EQ(test::readFile(path("old.off")), "old");
   EXPECT_EQ(filesInDirectory(), 1u);
 }
 

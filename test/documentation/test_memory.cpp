@@ -1,4 +1,4 @@
-// The memory that doc/limits.md states: peak of what a call allocates, beside its input.
+// The memory that doc/memory.md states: peak of what a call allocates, beside its input.
 
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/depth_sensor.h"

@@ -1,4 +1,5 @@
 #include "../full_disk.h"
+#include "../test_files.h"
 
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/database_file.h"
@@ -11,24 +12,19 @@
 
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <unistd.h>
 
 using namespace pcl_surflet;
 namespace fs = std::filesystem;
 
 namespace {
 
-class DatabaseFile : public testing::Test {
+class DatabaseFile : public test::FileTest {
 protected:
   void
   SetUp() override
   {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); // PCL's own words are not the point
-    directory_ = fs::temp_directory_path() / ("surflet_db_" + std::to_string(getpid()));
-    fs::create_directories(directory_);
-    path_ = (directory_ / "db.pcd").string();
     HistogramModelTrainer trainer;
     trainer.setResolution({3, 4, 5, 2});
     database_.add(trainer.train("ball", sampleShape(Shape::sphere(0.1), 400, 1)));
@@ -41,11 +37,6 @@ protected:
     trainer.setRole(ModelRole::Background);
     database_.add(trainer.train("table", sampleShape(Shape::plane(1, 1), 400, 1)));
     database_.setPenalty({0.5, 2e-5});
-  }
-  void
-  TearDown() override
-  {
-    fs::remove_all(directory_);
   }
 
   std::string
@@ -88,17 +79,15 @@ protected:
   std::string
   content()
   {
-    std::ifstream in(path_, std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
+    return test::readFile(path_);
   }
   void
   write(const std::string& text)
   {
-    std::ofstream(path_, std::ios::binary | std::ios::trunc) << text;
+    test::writeFile(path_, text);
   }
 
-  fs::path directory_;
-  std::string path_;
+  const std::string path_ = path("db.pcd");
   ModelDatabase database_;
 };
 

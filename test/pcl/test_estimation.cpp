@@ -1,4 +1,6 @@
 #define PCL_NO_PRECOMPILE // for the point type of our own
+#include "../test_files.h"
+
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/core/pair_counting.h"
 #include "pcl_surflet/core/shapes.h"
@@ -14,10 +16,7 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
-#include <unistd.h>
 
 /** \brief A point type PCL does not know. */
 struct MyPoint {
@@ -352,19 +351,16 @@ TEST(SurfletPairHistogram, NearestNeighbourSearchComparesAllBins)
 
 TEST(SurfletPairHistogram, WritesAPcdOfOneFieldThatReadsBack)
 {
-  const auto path = (std::filesystem::temp_directory_path() /
-                     ("surflet_descriptor_" + std::to_string(getpid()) + ".pcd"))
-                        .string();
+  const test::TemporaryDirectory directory;
+  const auto path = directory.path("descriptor.pcd");
   const auto descriptor = describe(shapeCloud("cup", 500));
   ASSERT_EQ(pcl::io::savePCDFileBinary(path, descriptor), 0);
-  std::ifstream in(path, std::ios::binary);
-  std::string header((std::istreambuf_iterator<char>(in)), {});
+  const std::string header = test::readFile(path);
   EXPECT_NE(header.find("FIELDS surflet_pairs\n"), std::string::npos);
   EXPECT_NE(header.find("COUNT 625\n"), std::string::npos);
   Descriptor back;
   ASSERT_EQ(pcl::io::loadPCDFile(path, back), 0);
   EXPECT_TRUE(std::equal(back[0].histogram, back[0].histogram + 625, descriptor[0].histogram));
-  std::filesystem::remove(path);
 }
 
 TEST(SurfletPairHistogram, OtherResolutionsAndMisuse)

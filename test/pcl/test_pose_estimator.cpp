@@ -1,4 +1,6 @@
 // Poses of detections in PCL clouds.
+#include "../test_files.h"
+
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/pose_estimator.h"
@@ -11,8 +13,6 @@
 
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
 using namespace pcl_surflet;
@@ -65,23 +65,6 @@ someMotion()
   motion.pretranslate(Eigen::Vector3f(0.5F, -1, 2));
   return motion;
 }
-
-class TemporaryDirectory {
-public:
-  TemporaryDirectory() { std::filesystem::create_directories(path_); }
-  ~TemporaryDirectory() { std::filesystem::remove_all(path_); }
-  std::string
-  path(const std::string& name = "") const
-  {
-    return name.empty() ? path_.string() : (path_ / name).string();
-  }
-
-private:
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() /
-      ("test_pose_estimator_" +
-       std::string(::testing::UnitTest::GetInstance()->current_test_info()->name()));
-};
 
 } // namespace
 
@@ -208,11 +191,11 @@ TEST(PoseVerification, LimitsAreInclusiveAndChecked)
 
 TEST(PoseModels, AreLoadedByName)
 {
-  const TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   saveOff(meshOfShape(*shapeByName("cup"), 0.004), directory.path("cup.off"));
   saveOff(meshOfShape(*shapeByName("box"), 0.02), directory.path("box.OFF"));
-  std::ofstream(directory.path("notes.txt")) << "not a mesh";
-  const auto models = loadPoseModels(directory.path());
+  test::writeFile(directory.path("notes.txt"), "not a mesh");
+  const auto models = loadPoseModels(directory.place().string());
   ASSERT_EQ(models.size(), 2U);
   EXPECT_EQ(models[0].label(), "box");
   EXPECT_EQ(models[1].label(), "cup");
@@ -222,9 +205,9 @@ TEST(PoseModels, AreLoadedByName)
 
 TEST(PoseModels, WhatCannotBeLoadedIsNamed)
 {
-  const TemporaryDirectory directory;
+  const test::TemporaryDirectory directory;
   EXPECT_THROW(loadPoseModels(directory.path("nowhere")), SurfaceFileError);
-  EXPECT_THROW(loadPoseModels(directory.path()), SurfaceFileError) << "empty";
-  std::ofstream(directory.path("bad.ply")) << "ply\nnonsense";
-  EXPECT_THROW(loadPoseModels(directory.path()), SurfaceFileError);
+  EXPECT_THROW(loadPoseModels(directory.place().string()), SurfaceFileError) << "empty";
+  test::writeFile(directory.path("bad.ply"), "ply\nnonsense");
+  EXPECT_THROW(loadPoseModels(directory.place().string()), SurfaceFileError);
 }

@@ -1,136 +1,12 @@
-#include "pcl_surflet/core/scene_generator.h"
-#include "pcl_surflet/recognition/histogram_model_trainer.h"
-#include "pcl_surflet/recognition/scene_training.h"
-#include "pcl_surflet/scene_interpreter.h"
-
-#include <pcl/console/print.h>
-#include <pcl/search/kdtree.h>
-
-#include <gtest/gtest.h>
+// The interpreter as a filter: what it finds, labels and refuses.
+#include "two_object_scene.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 using namespace pcl_surflet;
-
-namespace {
-
-using Interpreter = SceneInterpreter<pcl::PointNormal>;
-
-const Scene&
-scene()
-{
-  static const Scene made = [] {
-    SceneOptions o;
-    o.background = Background::None;
-    o.density = 100000;
-    o.seed = 3;
-    return generateScene(
-        {sceneItem("bottle", *shapeByName("bottle")), sceneItem("torus", *shapeByName("torus"))},
-        {}, o);
-  }();
-  return made;
-}
-
-const ModelDatabase&
-database()
-{
-  static const ModelDatabase models = [] {
-    HistogramModelTrainer trainer;
-    trainer.setResolution({7, 7, 7, 7});
-    trainer.setNumberOfPairs(1000000);
-    ModelDatabase d;
-    for (const char* name : {"bottle", "torus"})
-      d.add(trainer.train(name, sampleShape(*shapeByName(name), 20000, 9)));
-    return d;
-  }();
-  return models;
-}
-
-using Cloud = pcl::PointCloud<pcl::PointNormal>;
-
-Cloud::Ptr
-cloudOf(const SurfletSet& s, float scale = 1)
-{
-  Cloud::Ptr out(new Cloud);
-  for (std::size_t i = 0; i < s.size(); ++i) {
-    pcl::PointNormal p;
-    p.x = scale * s.x[i];
-    p.y = scale * s.y[i];
-    p.z = scale * s.z[i];
-    p.normal_x = s.nx[i];
-    p.normal_y = s.ny[i];
-    p.normal_z = s.nz[i];
-    out->push_back(p);
-  }
-  return out;
-}
-
-/** \brief The scene's points, then one that is not finite. */
-Cloud::Ptr
-cloud()
-{
-  const Cloud::Ptr out = cloudOf(scene().surflets);
-  out->push_back(out->back());
-  out->back().x = std::numeric_limits<float>::quiet_NaN();
-  return out;
-}
-
-Interpreter
-ready(bool extract_removed = false)
-{
-  Interpreter interpreter(extract_removed);
-  interpreter.setInputCloud(cloud());
-  interpreter.setDatabase(database());
-  interpreter.setLeafSize(0.008);
-  auto p = interpreter.getParameters();
-  p.steps.pairs = 50000;
-  interpreter.setParameters(p);
-  return interpreter;
-}
-
-/** \brief The same objects on a background; \p objects false: the background alone. */
-struct Backed {
-  SceneOptions options;
-  Scene scene;
-
-  explicit Backed(Background background)
-  {
-    options.background = background;
-    options.size = 0.6;
-    options.density = 100000;
-    options.seed = 5;
-    scene = generateScene(
-        {sceneItem("bottle", *shapeByName("bottle")), sceneItem("torus", *shapeByName("torus"))},
-        {}, options);
-  }
-};
-
-/** \brief Bottle and torus were found, and nothing else; most points are theirs. */
-void
-expectBoth(const std::vector<SceneDetection>& found, const Scene& truth)
-{
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_NE(found[0].model, found[1].model);
-  for (const auto& d : found) {
-    std::size_t right = 0;
-    for (const auto i : d.indices)
-      right += truth.labels[static_cast<std::size_t>(i)] == d.model + 1 ? 1 : 0;
-    EXPECT_GT(double(right), 0.95 * double(d.indices.size())) << d.label;
-    EXPECT_GT(double(right), 0.8 * double(truth.items[d.model].surflets)) << d.label;
-  }
-}
-
-/** \brief Silences what the tests provoke. */
-struct Quiet {
-  pcl::console::VERBOSITY_LEVEL before = pcl::console::getVerbosityLevel();
-  Quiet() { pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); }
-  ~Quiet() { pcl::console::setVerbosityLevel(before); }
-};
-
-} // namespace
+using namespace pcl_surflet::test;
 
 TEST(SceneInterpreter, NamesObjectsAndTheirPoints)
 {
@@ -300,17 +176,6 @@ TEST(SceneInterpreter, NothingThereIsNothingFound)
   EXPECT_NE(interpreter.getDiagnostics().reason.find("finite"), std::string::npos);
 }
 
-TEST(SceneInterpreter, ABackgroundThatIsIgnoredIsNoObject)
-{
-  auto interpreter = ready();
-  SceneOptions table;
-  table.density = 50000;
-  interpreter.setInputCloud(cloudOf(emptyBackground(table)));
-  EXPECT_TRUE(interpreter.interpret().empty());
-  EXPECT_NE(interpreter.getDiagnostics().reason.find("no model explains"), std::string::npos)
-      << interpreter.getDiagnostics().reason;
-}
-
 TEST(SceneInterpreter, OtherUnitsFindNothingAndSaySo)
 {
   for (const Method method : {Method::Explanation, Method::Dissertation})
@@ -354,88 +219,6 @@ TEST(SceneInterpreter, ThreadsDoNotChangeTheResult)
     EXPECT_EQ(one[k].score, two[k].score);
     EXPECT_EQ(one[k].confidence, two[k].confidence);
   }
-}
-
-TEST(SceneInterpreter, CellsConfidenceAndCoverageOfADetection)
-{
-  auto models = database();
-  HistogramModel torus = models[1];
-  torus.surface_area = areaOfShape(*shapeByName("torus"));
-  models.replace(torus);
-  auto interpreter = ready();
-  interpreter.setDatabase(models);
-  const auto found = interpreter.interpret();
-  ASSERT_EQ(found.size(), 2u);
-  for (const auto& d : found) {
-    if (d.label == "bottle")
-      EXPECT_TRUE(std::isnan(d.coverage)) << "its area is unknown";
-    else
-      EXPECT_NEAR(d.coverage, 1, 0.1);
-    EXPECT_GT(d.confidence, 0);
-    EXPECT_LE(d.confidence, 1);
-    double x = 0;
-    for (const auto c : d.cells)
-      x += interpreter.getCells().x[c];
-    EXPECT_NEAR(x / double(d.cells.size()), d.centroid[0], 1e-5);
-  }
-  EXPECT_EQ(interpreter.getCells().size(), interpreter.getDiagnostics().cells);
-}
-
-TEST(SceneInterpreter, CoverageIsOfTheAreaThatTrainingForScenesFinds)
-{
-  HistogramModelTrainer trainer;
-  trainer.setResolution({7, 7, 7, 7});
-  ModelDatabase models;
-  for (const char* name : {"bottle", "torus"})
-    models.add(trainForScenes(trainer, name, sampleShape(*shapeByName(name), 20000, 9), 0.008));
-  auto interpreter = ready();
-  interpreter.setDatabase(models);
-  const auto found = interpreter.interpret();
-  ASSERT_EQ(found.size(), 2u);
-  for (const auto& d : found)
-    EXPECT_NEAR(d.coverage, 1, 0.1) << d.label;
-}
-
-TEST(SceneInterpreter, ConfidenceGrowsWithFitAndMargin)
-{
-  Detection d;
-  d.margin = 0.1;
-  d.fit = 0.83;
-  d.cells.resize(300);
-  const double usual = detail::confidenceOf(d, 30);
-  EXPECT_NEAR(usual, 1 / (1 + std::exp(18.4 - 19.7 * 0.83 - 12.5 * 0.1)), 1e-12);
-  Detection better = d, nearer = d, best = d, alone = d;
-  better.margin = 0.2;
-  nearer.fit = 0.9;
-  for (const auto& e : {better, nearer})
-    EXPECT_GT(detail::confidenceOf(e, 30), usual);
-  best.fit = 0.95;
-  best.margin = 0.3;
-  EXPECT_GT(detail::confidenceOf(best, 30), 0.8);
-  alone.margin = 0;
-  alone.fit = 0.95;
-  EXPECT_GT(detail::confidenceOf(alone, 30), 0.9) << "a database of one model has no rivals";
-  alone.fit = 0.7;
-  EXPECT_LT(detail::confidenceOf(alone, 30), 0.1);
-  EXPECT_EQ(detail::confidenceOf(Detection(), 30), 0);
-}
-
-TEST(SceneInterpreter, ConfidenceWithoutFitGrowsWithScoreAndCells)
-{
-  Detection d;
-  d.score = 0.1;
-  d.cells.resize(300);
-  const double usual = detail::confidenceOf(d, 30);
-  EXPECT_NEAR(usual, 1 / (1 + std::exp(-1.0)) / 1.1, 1e-12);
-  Detection better = d, larger = d;
-  better.score = 0.2;
-  larger.cells.resize(3000);
-  for (const auto& e : {better, larger})
-    EXPECT_GT(detail::confidenceOf(e, 30), usual);
-  d.score = -1e9;
-  EXPECT_EQ(detail::confidenceOf(d, 30), 0);
-  d.score = 1e9;
-  EXPECT_LE(detail::confidenceOf(d, 30), 1);
 }
 
 TEST(SceneInterpreter, LabelsCarryNormals)
@@ -486,80 +269,6 @@ TEST(SceneInterpreter, ProgressGrowsAndCancels)
       }
     }
   }
-}
-
-TEST(SceneInterpreter, ExcludesAnEmptyScene)
-{
-  const Backed backed(Background::Bowl);
-  auto interpreter = ready();
-  interpreter.setInputCloud(cloudOf(backed.scene.surflets));
-  interpreter.setBackgroundCloud(cloudOf(emptyBackground(backed.options)));
-  expectBoth(interpreter.interpret(), backed.scene);
-  EXPECT_GT(interpreter.getDiagnostics().background_points, 30000u);
-  // A search of PCL's serves as well, and is used.
-  pcl::search::KdTree<pcl::PointNormal>::Ptr tree(new pcl::search::KdTree<pcl::PointNormal>);
-  const auto excluded = interpreter.getDiagnostics().background_points;
-  interpreter.setSearchMethod(tree);
-  expectBoth(interpreter.interpret(), backed.scene);
-  EXPECT_TRUE(tree->getInputCloud() != nullptr);
-  EXPECT_NEAR(double(interpreter.getDiagnostics().background_points), double(excluded),
-              0.001 * double(excluded));
-  // The background itself holds no object.
-  interpreter.setInputCloud(cloudOf(emptyBackground(backed.options)));
-  EXPECT_TRUE(interpreter.interpret().empty());
-  EXPECT_EQ(interpreter.getDiagnostics().reason, "all points are background");
-}
-
-TEST(SceneInterpreter, ExcludesPlanes)
-{
-  const Backed backed(Background::Corner);
-  auto interpreter = ready();
-  interpreter.setInputCloud(cloudOf(backed.scene.surflets));
-  BackgroundPlane table, any;
-  table.normal = {0, 0, 2};
-  interpreter.setBackgroundPlanes({table, any});
-  expectBoth(interpreter.interpret(), backed.scene);
-  EXPECT_EQ(interpreter.getDiagnostics().planes, 2u);
-  BackgroundPlane slope; // there is none that faces this way
-  slope.normal = {1, 0, 1};
-  interpreter.setBackgroundPlanes({slope});
-  interpreter.interpret();
-  EXPECT_EQ(interpreter.getDiagnostics().planes, 0u);
-  EXPECT_EQ(interpreter.getDiagnostics().background_points, 0u);
-}
-
-TEST(SceneInterpreter, WhatStandsOnTheBackgroundKeepsItsUnderside)
-{
-  const Backed backed(Background::Plane);
-  auto interpreter = ready();
-  interpreter.setInputCloud(cloudOf(backed.scene.surflets));
-  interpreter.setBackgroundPlanes({{}});
-  const std::size_t table = std::size_t(
-      std::count(backed.scene.labels.begin(), backed.scene.labels.end(), std::uint32_t{0}));
-  interpreter.interpret();
-  const std::size_t excluded = interpreter.getDiagnostics().background_points;
-  EXPECT_GE(excluded, table);
-  EXPECT_LT(excluded, table + table / 50) << "what turns up inside the bottle may go";
-  ExclusionOptions whatever_it_faces;
-  whatever_it_faces.max_angle = M_PI;
-  interpreter.setExclusionOptions(whatever_it_faces);
-  interpreter.interpret();
-  EXPECT_GT(interpreter.getDiagnostics().background_points, excluded + table / 50);
-}
-
-TEST(SceneInterpreter, TheBackgroundNeedsNormals)
-{
-  SceneInterpreter<pcl::PointXYZ, pcl::Normal> interpreter;
-  pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>(3, 1));
-  interpreter.setInputCloud(points);
-  interpreter.setInputNormals(
-      pcl::PointCloud<pcl::Normal>::Ptr(new pcl::PointCloud<pcl::Normal>(3, 1)));
-  interpreter.setDatabase(database());
-  interpreter.setBackgroundCloud(points);
-  const Quiet quiet;
-  EXPECT_TRUE(interpreter.interpret().empty());
-  EXPECT_EQ(interpreter.getDiagnostics().status, SceneStatus::NoNormals);
-  EXPECT_NE(interpreter.getDiagnostics().reason.find("background"), std::string::npos);
 }
 
 TEST(SceneInterpreter, AccumulatesRunsWithinItsBudgets)

@@ -1,3 +1,5 @@
+#include "../test_files.h"
+
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/surface_file.h"
@@ -12,7 +14,6 @@
 #include <cmath>
 #include <cstring>
 #include <filesystem>
-#include <fstream>
 #include <functional>
 
 #include <sys/stat.h>
@@ -27,29 +28,17 @@ namespace {
 const std::string kPlyPoint = "property float x\nproperty float y\nproperty float z\n";
 const std::string kPlyNormal = "property float nx\nproperty float ny\nproperty float nz\n";
 
-class SurfaceFiles : public testing::Test {
+class SurfaceFiles : public test::FileTest {
 protected:
   void
   SetUp() override
   {
     pcl::console::setVerbosityLevel(pcl::console::L_ALWAYS); // PCL's own words are not the point
-    directory_ = fs::temp_directory_path() / ("surflet_surface_" + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void
-  TearDown() override
-  {
-    fs::remove_all(directory_);
-  }
-  std::string
-  path(const std::string& name) const
-  {
-    return (directory_ / name).string();
   }
   std::string
   write(const std::string& name, const std::string& content) const
   {
-    std::ofstream(path(name), std::ios::binary) << content;
+    test::writeFile(path(name), content);
     return path(name);
   }
   SurfaceFile
@@ -78,8 +67,6 @@ protected:
     EXPECT_NE(error.find(cause), std::string::npos) << cause << " not in: " << error;
     EXPECT_NE(error.find(';'), std::string::npos) << "no remedy in: " << error;
   }
-
-  fs::path directory_;
 };
 
 template <typename T>
@@ -320,8 +307,7 @@ TEST_F(SurfaceFiles, AbsurdCountsAllocateNothing)
 TEST_F(SurfaceFiles, EveryTruncationIsRefusedOrHarmless)
 {
   pcl::PCDWriter().writeBinary(path("a.pcd"), someCloud());
-  std::ifstream in(path("a.pcd"), std::ios::binary);
-  const std::string pcd{std::istreambuf_iterator<char>(in), {}};
+  const std::string pcd = test::readFile(path("a.pcd"));
   const std::vector<std::pair<std::string, std::string>> files = {
       {"cut.pcd", pcd}, {"cut.ply", binaryPly(false)}, {"cut.stl", binaryStl(4)}};
   for (const auto& [name, content] : files)
@@ -332,8 +318,7 @@ TEST_F(SurfaceFiles, EveryTruncationIsRefusedOrHarmless)
 TEST_F(SurfaceFiles, FlippedBytesNeverCrash)
 {
   pcl::PCDWriter().writeBinaryCompressed(path("a.pcd"), someCloud());
-  std::ifstream in(path("a.pcd"), std::ios::binary);
-  const std::string pcd{std::istreambuf_iterator<char>(in), {}};
+  const std::string pcd = test::readFile(path("a.pcd"));
   const std::vector<std::pair<std::string, std::string>> files = {
       {"flip.pcd", pcd},
       {"flip.ply", binaryPly(true)},

@@ -1,27 +1,21 @@
 // Several interpretations voted into one, on hand-made runs.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/recognition/scene_accumulation.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <stdexcept>
 
 using namespace pcl_surflet;
+using pcl_surflet::test::range;
 
 namespace {
 
 using Cells = std::vector<std::uint32_t>;
-
-Cells
-range(std::uint32_t begin, std::uint32_t end)
-{
-  Cells out(end - begin);
-  std::iota(out.begin(), out.end(), begin);
-  return out;
-}
 
 /** \brief A hundred cells in a row. */
 const SurfletSet&

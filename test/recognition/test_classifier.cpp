@@ -1,3 +1,5 @@
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/recognition/histogram_classifier.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
@@ -8,17 +10,9 @@
 #include <limits>
 
 using namespace pcl_surflet;
+using pcl_surflet::test::scaled;
 
 namespace {
-
-SurfletSet
-scaled(SurfletSet set, float factor)
-{
-  for (auto* column : {&set.x, &set.y, &set.z})
-    for (float& c : *column)
-      c *= factor;
-  return set;
-}
 
 const ModelDatabase&
 shapes()

@@ -17,6 +17,7 @@
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::interpretation;
+using pcl_surflet::test::scaled;
 using pcl_surflet::test::shifted;
 using pcl_surflet::test::together;
 
@@ -64,15 +65,6 @@ SurfletSet
 reduced(const SurfletSet& set)
 {
   return reduceToTwoSidedCells(set, kLeaf).cells;
-}
-
-SurfletSet
-scaled(SurfletSet set, float factor)
-{
-  for (auto* axis : {&set.x, &set.y, &set.z})
-    for (float& v : *axis)
-      v *= factor;
-  return set;
 }
 
 ExplanationParameters

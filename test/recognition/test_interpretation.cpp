@@ -1,4 +1,6 @@
 // The seven steps together.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/scene_generator.h"
@@ -12,6 +14,7 @@
 #include <stdexcept>
 
 using namespace pcl_surflet;
+using pcl_surflet::test::scaled;
 
 namespace {
 
@@ -55,15 +58,6 @@ SurfletSet
 reduced(const SurfletSet& set)
 {
   return reduceToCells(set, kLeaf).cells;
-}
-
-SurfletSet
-scaled(SurfletSet set, float factor)
-{
-  for (auto* axis : {&set.x, &set.y, &set.z})
-    for (float& v : *axis)
-      v *= factor;
-  return set;
 }
 
 double

@@ -1,4 +1,6 @@
 // Each of the seven steps alone, on hand-made cases.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/core/shapes.h"
 #include "pcl_surflet/recognition/histogram_model_trainer.h"
@@ -8,41 +10,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::interpretation;
+using namespace pcl_surflet::test;
 
 namespace {
-
-SurfletSet
-shifted(const SurfletSet& set, float x, float y = 0, float z = 0)
-{
-  SurfletSet out = set;
-  for (std::size_t i = 0; i < set.size(); ++i) {
-    out.x[i] += x;
-    out.y[i] += y;
-    out.z[i] += z;
-  }
-  return out;
-}
-
-SurfletSet
-joined(SurfletSet a, const SurfletSet& b)
-{
-  for (std::size_t i = 0; i < b.size(); ++i)
-    a.push_back(b[i]);
-  return a;
-}
-
-/** \brief begin, begin + 1, ..., end - 1. */
-Indices
-range(std::uint32_t begin, std::uint32_t end)
-{
-  Indices out(end - begin);
-  std::iota(out.begin(), out.end(), begin);
-  return out;
-}
 
 HistogramModel
 modelOf(const std::string& label, const SurfletSet& set, ModelRole role = ModelRole::Object)
@@ -149,7 +122,7 @@ TEST(Seeds, HoldWhatIsWithinTheLargestRadiusOfASurflet)
 TEST(Refinement, ErasesBothSurfletsOfACrosstalkPair)
 {
   const auto n = static_cast<std::uint32_t>(ball().size());
-  World w(joined(ball(), shifted(rod(), 1)));
+  World w(together(ball(), shifted(rod(), 1)));
   Regrouping groups;
   groups.first = {0, 1};
   groups.second = {n, 2}; // too far apart; both on the ball
@@ -162,7 +135,7 @@ TEST(Refinement, ErasesBothSurfletsOfACrosstalkPair)
 TEST(Preselection, SelectsEachModelsOwnSurflets)
 {
   const auto n = static_cast<std::uint32_t>(ball().size());
-  World w(joined(ball(), shifted(rod(), 1)));
+  World w(together(ball(), shifted(rod(), 1)));
   DissertationParameters p;
   p.pairs = 100000;
   const auto selected = preselect(w.scene, p, w.diagnostics);
@@ -182,7 +155,7 @@ TEST(Preselection, AHigherThresholdSelectsFewerPairs) // Eq. 5.3
 {
   std::uint64_t last = ~std::uint64_t{0};
   for (const double lambda : {0.5, 1.3, 3.0}) {
-    World w(joined(ball(), shifted(rod(), 1)));
+    World w(together(ball(), shifted(rod(), 1)));
     DissertationParameters p;
     p.pairs = 20000;
     p.lambda_h = lambda;
@@ -205,7 +178,7 @@ TEST(Preselection, DropsWhatIsMostLikelyBackground) // Eq. 5.9
   p.pairs = 50000;
   p.lambda_h = 0.1;
   const auto onFloor = [&](bool background) {
-    World w(joined(floor, shifted(ball(), 0, 0, 0.051f)), models, background);
+    World w(together(floor, shifted(ball(), 0, 0, 0.051f)), models, background);
     const auto selected = preselect(w.scene, p, w.diagnostics);
     EXPECT_EQ(w.diagnostics.background > 0, background);
     return std::lower_bound(selected[0].begin(), selected[0].end(), n) - selected[0].begin();
@@ -233,7 +206,7 @@ TEST(Preselection, GivesUpWhereAllPairsAreTooLong)
 
 TEST(Seeds, HoldTheNeighbourhoodOfASurflet) // Eq. 5.13
 {
-  const World w(joined(ball(), shifted(ball(), 0.3f)));
+  const World w(together(ball(), shifted(ball(), 0.3f)));
   const auto n = static_cast<std::uint32_t>(ball().size());
   DissertationParameters p;
   p.seeds = 40;
@@ -283,7 +256,7 @@ TEST(Refinement, KeepsASeedOfOneObject)
 TEST(Refinement, ClearsASeedOfTwoObjectsOfCrosstalk) // Eq. 5.15
 {
   const auto n = static_cast<std::uint32_t>(ball().size());
-  const World w(joined(ball(), shifted(rod(), 0.02f, 0.02f)));
+  const World w(together(ball(), shifted(rod(), 0.02f, 0.02f)));
   Cluster seed = clusterOf(range(0, n + 100));
   refineSeed(w.scene, 0, 1, {}, seed);
   const auto rest =
@@ -302,7 +275,7 @@ TEST(Refinement, LeavesNothingOfAnotherObject)
 
 TEST(Refinement, GivesUpASeedThatNeverSettles)
 {
-  const World w(joined(ball(), shifted(rod(), 0.02f, 0.02f)));
+  const World w(together(ball(), shifted(rod(), 0.02f, 0.02f)));
   DissertationParameters p;
   p.max_regroupings = 1;
   Cluster seed = clusterOf(range(0, 1400));
@@ -342,7 +315,7 @@ TEST(Merging, OverlapMustExceedLambda)
 TEST(Distribution, TheOwnModelMustExplainTheCluster)
 {
   const auto n = static_cast<std::uint32_t>(ball().size());
-  const World w(joined(ball(), shifted(rod(), 1)));
+  const World w(together(ball(), shifted(rod(), 1)));
   auto of_ball = clusterOf(range(0, 500)), of_rod = clusterOf(range(n, n + 500));
   EXPECT_TRUE(distributionFits(w.scene, 0, 1, {}, of_ball));
   EXPECT_GT(of_ball.margin, 0);

@@ -1,4 +1,6 @@
 // Poses of known objects: moved, cut, among others, at any scale.
+#include "scene_pieces.h"
+
 #include "pcl_surflet/core/conditions.h"
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/shapes.h"
@@ -12,6 +14,8 @@
 #include <map>
 
 using namespace pcl_surflet;
+using pcl_surflet::test::scaled;
+using pcl_surflet::test::together;
 
 namespace {
 
@@ -75,23 +79,6 @@ expectUpright(const PoseEstimate& e, const RigidMotion& truth, double tolerance)
   EXPECT_GT(up[0] * right[0] + up[1] * right[1] + up[2] * right[2], std::cos(2 * kDegree));
   const auto at = e.motion.moved({0, 0, 0}), there = truth.moved({0, 0, 0});
   EXPECT_LT(std::hypot(at[0] - there[0], at[1] - there[1], at[2] - there[2]), tolerance);
-}
-
-SurfletSet
-scaled(SurfletSet set, float factor)
-{
-  for (auto* axis : {&set.x, &set.y, &set.z})
-    for (auto& v : *axis)
-      v *= factor;
-  return set;
-}
-
-SurfletSet
-joined(SurfletSet a, const SurfletSet& b)
-{
-  for (std::size_t i = 0; i < b.size(); ++i)
-    a.push_back(b[i]);
-  return a;
 }
 
 /** \brief The surflets for which \p keep says so. */
@@ -239,7 +226,7 @@ TEST(Pose, FifthOfForeignPointsDoesNoHarm)
   for (auto& x : wall.x)
     x -= 0.045F;
   const RigidMotion truth = someMotion(13);
-  const auto e = estimatePose(moved(joined(cup, wall), truth), modelOf("cup"));
+  const auto e = estimatePose(moved(together(cup, wall), truth), modelOf("cup"));
   ASSERT_EQ(e.status, PoseStatus::Found) << e.reason;
   EXPECT_LT(farthest(cup, e.motion, truth), 0.03 * modelOf("cup").diameter());
   EXPECT_LT(e.inlier_share, 0.95);

@@ -22,26 +22,31 @@ signaturesOf(const pcl::PointCloud<Signature>& cloud)
   return all;
 }
 
+/** \brief What an estimation makes of points without normals and parameters. */
+template <class Signature, class Estimation>
+Signatures
+estimated(Estimation&& estimation, const PeerCloud& cloud)
+{
+  estimation.setInputCloud(cloud.points);
+  pcl::PointCloud<Signature> out;
+  estimation.compute(out);
+  return signaturesOf(out);
+}
+
 } // namespace
 
 Signatures
 esf(const PeerCloud& cloud)
 {
-  pcl::ESFEstimation<pcl::PointXYZ, pcl::ESFSignature640> estimation;
-  estimation.setInputCloud(cloud.points);
-  pcl::PointCloud<pcl::ESFSignature640> out;
-  estimation.compute(out);
-  return signaturesOf(out);
+  return estimated<pcl::ESFSignature640>(pcl::ESFEstimation<pcl::PointXYZ, pcl::ESFSignature640>(),
+                                         cloud);
 }
 
 Signatures
 gasd(const PeerCloud& cloud)
 {
-  pcl::GASDEstimation<pcl::PointXYZ, pcl::GASDSignature512> estimation;
-  estimation.setInputCloud(cloud.points);
-  pcl::PointCloud<pcl::GASDSignature512> out;
-  estimation.compute(out);
-  return signaturesOf(out);
+  return estimated<pcl::GASDSignature512>(
+      pcl::GASDEstimation<pcl::PointXYZ, pcl::GASDSignature512>(), cloud);
 }
 
 Signatures

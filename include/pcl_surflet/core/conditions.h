@@ -1,7 +1,8 @@
 /** \file
  * What happens to surfaces on their way through a sensor: motion, scale, noise, missing parts.
  * And what tells two instances of a class apart: distortion. For experiments and for training under
- * conditions. */
+ * conditions. Surflets must be finite; of an empty set nothing is left but an empty set. One seed
+ * gives one result. */
 #pragma once
 
 #include "pcl_surflet/core/surflet_set.h"
@@ -17,7 +18,8 @@ PCL_SURFLET_API SurfletSet randomlyRotated(const SurfletSet& set, std::uint64_t 
 
 /** \brief The set with every position moved along its normal by a random distance, uniform in
  * [-amplitude, amplitude] [Wahl 2007, Sec. 3.6.5]. Normals stay: a sensor would have to estimate
- * them anew. */
+ * them anew. \param set of surflets \param amplitude in their unit, finite and >= 0 \param seed of
+ * the distances */
 PCL_SURFLET_API SurfletSet displacedAlongNormals(const SurfletSet& set, double amplitude,
                                                  std::uint64_t seed);
 
@@ -41,7 +43,7 @@ PCL_SURFLET_API SurfletSet cutByRandomPlane(const SurfletSet& set, double visibl
 PCL_SURFLET_API SurfletSet singleView(const SurfletSet& set, double spacing, double noise,
                                       std::uint64_t seed);
 
-/** \brief The mesh scaled so that its farthest vertices are \p diameter apart.
+/** \brief The mesh scaled so that its farthest vertices are \p diameter (> 0) apart.
  * \throws std::invalid_argument if the vertices have no extent */
 PCL_SURFLET_API TriangleMesh scaledToDiameter(const TriangleMesh& mesh, double diameter);
 

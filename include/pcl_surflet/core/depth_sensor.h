@@ -101,7 +101,7 @@ struct ViewOptions {
   std::array<double, 3> target{0, 0, 0.05}; ///< that every sensor looks at
   double distance = 1.4;                    ///< from there, > 0
   double elevation = 45;                    ///< above the horizon; the upper ring; in (-90, 90)
-  double second_elevation = 25;             ///< the lower ring
+  double second_elevation = 25;             ///< the lower ring; in (-90, 90)
   /** \brief Of the first sensor, about the vertical; pass: from where it stands otherwise, -y. */
   double azimuth = 0;
   double path = 2;        ///< pass: length of the way along x, with the target in its middle, >= 0

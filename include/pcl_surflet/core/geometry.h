@@ -9,8 +9,8 @@
 
 namespace pcl_surflet {
 
-/** \brief Largest distance between two surflets, exact; 0 for fewer than two
- * (delta_max, [Wahl 2007, Sec. 2.3]).
+/** \brief Largest distance between two surflets, exact, in their unit; 0 for fewer than two
+ * (delta_max, [Wahl 2007, Sec. 2.3]). Positions must be finite.
  *
  * Splits pairs of tree nodes as long as they may hold a longer pair than the best one known: far
  * below O(n^2), also for a sphere, where every surflet has partners almost as far as the farthest.

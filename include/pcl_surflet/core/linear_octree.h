@@ -82,7 +82,6 @@ public:
   Position positionAt(std::uint32_t place) const;  ///< its coordinates
   const PointIndex* indexData() const;             ///< indexAt() as an array of size()
   std::array<const float*, 3> coordinates() const; ///< positionAt() as three arrays of size()
-  const char* instructionSetName() const;          ///< "scalar", "avx2" or "avx512"
 
   struct Data; ///< internal
 

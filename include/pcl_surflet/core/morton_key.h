@@ -80,7 +80,8 @@ public:
     return key;
   }
 
-  /** \brief The key whose digits are the characters of \p digits, e.g. "132". */
+  /** \brief The key whose digits are the characters of \p digits, e.g. "132": each below 2^Dim, no
+   * more than max_depth. Not checked. */
   static BasicMortonKey
   fromDigits(const std::string& digits)
   {
@@ -91,7 +92,7 @@ public:
   }
 
   /** \brief The key of depth \p depth whose words are \p words; bits below the depth are dropped.
-   */
+   * \p depth in [0, max_depth]. */
   static constexpr BasicMortonKey
   fromWords(const std::array<std::uint64_t, Words>& words, int depth)
   {

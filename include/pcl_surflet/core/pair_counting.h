@@ -117,7 +117,9 @@ struct PCL_SURFLET_API FeatureSample {
   void bins(double delta_max, std::vector<std::uint32_t>& out) const;
 };
 
-/** \brief Draws the same pairs as countDrawnPairs() and keeps their features, in drawing order. */
+/** \brief Draws the same pairs as countDrawnPairs() and keeps their features, in drawing order.
+ * Fewer than two surflets have none. The result does not depend on \p threads (0: all).
+ * \throws std::invalid_argument for an unusable resolution */
 PCL_SURFLET_API FeatureSample drawFeatures(const PairSource& source, const Resolution& resolution,
                                            std::uint64_t n, std::uint64_t seed,
                                            unsigned threads = 1);
@@ -177,13 +179,13 @@ private:
 PCL_SURFLET_API void featuresOfRows(const PairSource& source, const Resolution& resolution,
                                     const PairRows& rows, PairFeatures& out);
 
-/** \brief Border \p k (0 ... d_delta - 2) between the intervals of delta, in the measure of
+/** \brief Border \p k (0 to d_delta - 2) between the intervals of delta, in the measure of
  * PairFeatures::delta_squared: a pair is beyond it where delta_squared >= border. The same
  * comparison as in all counting functions. */
 PCL_SURFLET_API float deltaBorder(int k, const Resolution& resolution, double delta_max,
                                   double scale);
 
-/** \brief Indices of the drawn pairs number \p first ... \p first + n - 1 among \p m surflets (m >=
+/** \brief Indices of the drawn pairs number \p first to \p first + n - 1 among \p m surflets (m >=
  * 2), the same pairs that countDrawnPairs() and drawFeatures() draw with that seed. */
 PCL_SURFLET_API std::vector<std::pair<std::uint32_t, std::uint32_t>>
 drawPairs(std::size_t m, std::uint64_t n, std::uint64_t seed, std::uint64_t first = 0);

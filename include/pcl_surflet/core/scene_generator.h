@@ -25,7 +25,8 @@ struct SceneItem {
   std::function<TriangleMesh()> mesh = {};
 };
 
-/** \brief A mesh of the shape with roughly as many vertices. */
+/** \brief A mesh of the shape with roughly as many \p vertices. \throws std::invalid_argument as
+ * meshOfShape() if they are not positive, or too many */
 PCL_SURFLET_API TriangleMesh meshOf(const Shape& shape, double vertices);
 
 /** \brief A shape as an item: samples are exact, the mesh is approximate. */

@@ -88,7 +88,8 @@ struct UnitSurflets {
   double scale = 1; ///< a power of two
 };
 
-/** \brief \p set centred and scaled; without extent the scale is 1. */
+/** \brief \p set, whose positions must be finite, centred and scaled; without extent the scale is
+ * 1. */
 PCL_SURFLET_API UnitSurflets toUnitScale(const SurfletSet& set);
 
 } // namespace pcl_surflet

@@ -61,7 +61,6 @@ public:
   std::size_t cubeCount() const;     ///< cubes that hold a point
   std::size_t cellCount() const;     ///< occupied atomic cells of all cubes
 
-  std::vector<SuperKey> superKeys() const;    ///< of all cubes, ascending
   SuperKey superKey(const Position& p) const; ///< of the cube that \p p lies in, occupied or not
 
   /** \brief Calls \p visit for every occupied cell, cube by cube in the order of the keys. */

@@ -49,4 +49,4 @@ MeanSurfletGrid<PointT>::applyFilter(PointCloud& output)
 } // namespace pcl_surflet
 
 #define PCL_SURFLET_INSTANTIATE_MeanSurfletGrid(T)                                                 \
-  template class PCL_SURFLET_API pcl_surflet::MeanSurfletGrid<T>;
+  template class PCL_SURFLET_API pcl_surflet::MeanSurfletGrid<T>

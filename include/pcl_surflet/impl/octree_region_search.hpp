@@ -382,4 +382,4 @@ OctreeRegionSearch<PointT>::dynamicSpace(const char* method)
 } // namespace pcl_surflet
 
 #define PCL_SURFLET_INSTANTIATE_OctreeRegionSearch(T)                                              \
-  template class PCL_SURFLET_API pcl_surflet::OctreeRegionSearch<T>;
+  template class PCL_SURFLET_API pcl_surflet::OctreeRegionSearch<T>

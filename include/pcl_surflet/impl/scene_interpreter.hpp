@@ -218,10 +218,10 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::applyFilter(pcl::Indices& indice
   }
 }
 
-#define PCL_INSTANTIATE_SceneInterpreter(T, NT)                                                    \
+#define PCL_SURFLET_INSTANTIATE_SceneInterpreter(T, NT)                                            \
   template class PCL_SURFLET_API pcl_surflet::SceneInterpreter<T, NT>;                             \
   template PCL_SURFLET_API void pcl_surflet::SceneInterpreter<T, NT>::labelCloud(                  \
       const std::vector<pcl_surflet::SceneDetection>&, pcl::PointCloud<pcl::PointXYZL>&) const;    \
   template PCL_SURFLET_API void pcl_surflet::SceneInterpreter<T, NT>::labelCloud(                  \
       const std::vector<pcl_surflet::SceneDetection>&, pcl::PointCloud<pcl::PointXYZLNormal>&)     \
-      const;
+      const

@@ -1,23 +1,8 @@
 #pragma once
 
 #include "pcl_surflet/impl/oriented_input.h"
+#include "pcl_surflet/impl/whole_cloud_feature.hpp"
 #include "pcl_surflet/surflet_pair_feature.h"
-
-template <typename PointInT, typename PointNT, typename PointOutT>
-void
-pcl_surflet::SurfletPairFeature<PointInT, PointNT, PointOutT>::compute(PointCloudOut& output)
-{
-  output.clear();
-  output.is_dense = true;
-  rejected_ = 0;
-  if (!pcl::PCLBase<PointInT>::initCompute()) {
-    PCL_ERROR("[pcl_surflet::%s::compute] No input cloud.\n", this->feature_name_.c_str());
-    return;
-  }
-  output.header = this->input_->header;
-  computeFeature(output);
-  pcl::PCLBase<PointInT>::deinitCompute();
-}
 
 template <typename PointInT, typename PointNT, typename PointOutT>
 void
@@ -52,5 +37,7 @@ pcl_surflet::SurfletPairFeature<PointInT, PointNT, PointOutT>::computeFeature(Po
   }
 }
 
-#define PCL_INSTANTIATE_SurfletPairFeature(T, NT)                                                  \
-  template class PCL_SURFLET_API pcl_surflet::SurfletPairFeature<T, NT>;
+#define PCL_SURFLET_INSTANTIATE_SurfletPairFeature(T, NT)                                          \
+  template class PCL_SURFLET_API                                                                   \
+      pcl_surflet::detail::WholeCloudFeature<T, NT, pcl_surflet::SurfletPairSignature>;            \
+  template class PCL_SURFLET_API pcl_surflet::SurfletPairFeature<T, NT>

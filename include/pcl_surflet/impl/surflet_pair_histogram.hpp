@@ -1,25 +1,10 @@
 #pragma once
 
 #include "pcl_surflet/impl/oriented_input.h"
+#include "pcl_surflet/impl/whole_cloud_feature.hpp"
 #include "pcl_surflet/surflet_pair_histogram.h"
 
 #include <algorithm>
-
-template <typename PointInT, typename PointNT, typename PointOutT>
-void
-pcl_surflet::SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>::compute(
-    PointCloudOut& output)
-{
-  output.clear();
-  output.is_dense = true;
-  if (!pcl::PCLBase<PointInT>::initCompute()) {
-    PCL_ERROR("[pcl_surflet::%s::compute] No input cloud.\n", this->feature_name_.c_str());
-    return;
-  }
-  output.header = this->input_->header;
-  computeFeature(output);
-  pcl::PCLBase<PointInT>::deinitCompute();
-}
 
 template <typename PointInT, typename PointNT, typename PointOutT>
 void
@@ -46,5 +31,7 @@ pcl_surflet::SurfletPairHistogramEstimation<PointInT, PointNT, PointOutT>::compu
   std::copy(histogram.begin(), histogram.end(), output[0].histogram);
 }
 
-#define PCL_INSTANTIATE_SurfletPairHistogramEstimation(T, NT)                                      \
-  template class PCL_SURFLET_API pcl_surflet::SurfletPairHistogramEstimation<T, NT>;
+#define PCL_SURFLET_INSTANTIATE_SurfletPairHistogramEstimation(T, NT)                              \
+  template class PCL_SURFLET_API                                                                   \
+      pcl_surflet::detail::WholeCloudFeature<T, NT, pcl_surflet::SurfletPairHistogram625>;         \
+  template class PCL_SURFLET_API pcl_surflet::SurfletPairHistogramEstimation<T, NT>

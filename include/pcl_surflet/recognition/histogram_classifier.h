@@ -145,7 +145,8 @@ public:
 
   /** \brief Classifies one cloud.
    * A query of fewer than two surflets, or without any feature, is unknown with an empty ranking.
-   */
+   * \param query finite surflets in the unit of the models, with outward normals of unit length:
+   * toSurflets() and SurfletSet::appendChecked() leave out all others */
   Classification classify(const SurfletSet& query) const;
 
   /** \brief Classifies many clouds, in parallel; the same as classify() of each. */

@@ -107,7 +107,8 @@ public:
   /** \brief Trains from an oriented cloud: k drawn pairs, or all if there are no more.
    *
    * \param label 1 to 63 bytes
-   * \param surflets at least three that do not all coincide; density see setUnevenDensity()
+   * \param surflets at least three that do not all coincide, finite, with outward normals of unit
+   * length (toSurflets(), SurfletSet::appendChecked()); density see setUnevenDensity()
    * \throws TrainingError if no model can be made of them */
   HistogramModel train(const std::string& label, const SurfletSet& surflets) const;
 

@@ -56,7 +56,7 @@ struct OnlineScan {
   std::size_t interpreted_cells = 0; ///< interpreted again
   std::size_t kept = 0;              ///< detections that were not sought again
   std::size_t sought = 0;            ///< detections that were
-  bool is_cancelled = false; ///< progress said so: nothing is as if the scan had not been taken
+  bool cancelled = false; ///< progress said so: nothing is as if the scan had not been taken
 };
 
 /** \brief Constants of OnlineInterpretation; leaf must be set. Lengths are in the unit of the

@@ -1,5 +1,6 @@
 #include "free_space.h"
 
+#include "core/vector3.h"
 #include "pcl_surflet/core/parallel.h"
 
 #include <algorithm>
@@ -22,12 +23,6 @@ normalise(Place& v)
   return length;
 }
 
-Place
-difference(const Place& a, const Place& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 } // namespace
 
 FreeSpace::FreeSpace(const SurfletSet& ends, const Place& sensor, double radius, double behind,
@@ -36,7 +31,7 @@ FreeSpace::FreeSpace(const SurfletSet& ends, const Place& sensor, double radius,
 {
   std::array<std::vector<float>, 3> d;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    Place ray = difference({ends.x[i], ends.y[i], ends.z[i]}, sensor);
+    Place ray = detail::subtract({ends.x[i], ends.y[i], ends.z[i]}, sensor);
     const double length = normalise(ray);
     if (!(length > 0) || !std::isfinite(length))
       continue;
@@ -52,7 +47,7 @@ FreeSpace::FreeSpace(const SurfletSet& ends, const Place& sensor, double radius,
 double
 FreeSpace::passing(const Place& place, double radius, std::vector<PlaceRange>& ranges) const
 {
-  Place direction = difference(place, sensor_);
+  Place direction = detail::subtract(place, sensor_);
   const double distance = normalise(direction);
   ranges.clear();
   if (!(distance > radius))

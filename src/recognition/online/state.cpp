@@ -62,7 +62,7 @@ OnlineInterpretation::State::addScan(const SurfletSet& surflets, const Place* se
   catch (const Cancelled&) {
     cells.rollBack();
     scan = OnlineScan();
-    scan.is_cancelled = true;
+    scan.cancelled = true;
   }
   catch (...) {
     cells.rollBack();
