@@ -235,7 +235,8 @@ TEST_F(HostileScenes, HugeClouds)
   EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::size_t{0}), n);
   HistogramModelTrainer trainer;
   trainer.setNumberOfPairs(100000);
-  EXPECT_EQ(trainer.train("huge", toSurflets(*cloud).surflets).problem(), "");
+  // No ball: its exact largest distance takes n^1.5, a quarter of an hour for 10 million points.
+  EXPECT_EQ(trainer.train("huge", sampleShape(*shapeByName("cup"), n, 3)).problem(), "");
   SceneInterpreter<pcl::PointNormal> interpreter;
   interpreter.setInputCloud(cloud);
   interpreter.setDatabase(database());
