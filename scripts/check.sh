@@ -10,10 +10,12 @@
 #   packages  Debian packages, and lintian over them
 #   address   tests under the address and undefined-behaviour sanitizers (debug build)
 #   thread    tests under the thread sanitizer
+#   memory    readers, files, space and features under valgrind: no error, no leak of ours. It knows no
+#             AVX-512, so this is also a run of the AVX2 kernels
 set -uo pipefail
 cd "$(dirname "$0")/.."
 stages=("${@:-}")
-[ -n "${stages[0]}" ] || stages=(format tidy headers doc packages address thread)
+[ -n "${stages[0]}" ] || stages=(format tidy headers doc packages address thread memory)
 jobs=$(nproc)
 log=$(mktemp -d)
 trap 'rm -rf "$log"' EXIT
@@ -44,12 +46,24 @@ address() { sanitized asan; }
 # Without random addresses: the thread sanitizer's memory map collides with some of them.
 thread() { sanitized tsan setarch "$(uname -m)" -R; }
 
+memory() {
+  local programs=(surflet_pair geometry mesh_file triangle_mesh shapes surface_file database_file model_database
+    model_search model_bank classifier object_centre training pair_counting cell_reduction octree_region_search
+    mean_surflet_grid dynamic_space estimation pose_estimator compat)
+  cmake --preset ci >/dev/null && cmake --build --preset ci --target "${programs[@]/#/test_}" >"$log/build" ||
+    { tail -n 40 "$log/build"; return 1; }
+  printf '%s\n' "${programs[@]}" |
+    xargs -P"$jobs" -I{} sh -c 'valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite \
+      --show-leak-kinds=definite "build/ci/bin/test_$1" --gtest_brief=1 >"$2/memory_$1" 2>&1 ||
+      { cat "$2/memory_$1"; exit 1; }' - {} "$log"
+}
+
 scripts/install_dependencies.sh --with-checks || exit 1
 failed=()
 times=()
 for stage in "${stages[@]}"; do
   case $stage in
-    format | tidy | headers | doc | packages | address | thread) ;;
+    format | tidy | headers | doc | packages | address | thread | memory) ;;
     *) echo "Unknown stage $stage; see the first lines of $0" >&2; exit 1 ;;
   esac
   echo "=== $stage"

@@ -18,7 +18,7 @@ for option in "$@"; do
     --with-opencv) packages+=(libopencv-contrib-dev) ;;
     --with-checks)
       packages+=(clang clang-format clang-tidy doxygen graphviz dpkg-dev fakeroot file lintian
-        help2man)
+        help2man valgrind)
       ;;
     *) echo "Unknown option $option" >&2; exit 1 ;;
   esac
