@@ -277,6 +277,29 @@ movedSymmetry(Symmetry s, const RigidMotion& motion)
   return s;
 }
 
+/** \brief What the first of \p found tells. */
+PoseEstimate
+described(const ModelData& model, const Cluster& cluster, const SceneFrame& frame,
+          const std::vector<Proposal>& found, const PoseParameters& p)
+{
+  const Fit fit = fitOf(model, cluster, found[0].to_model, p.fine_reach);
+  PoseEstimate e;
+  e.cells = cluster.cells.size();
+  e.motion = toScene(model, frame, found[0].to_model);
+  e.score = fit.score;
+  e.inlier_share = fit.share;
+  e.coverage = coverageOf(model, cluster, found[0].to_model, p.fine_reach);
+  e.residual = std::sqrt(fit.squares) * model.diameter;
+  e.margin = marginOf(model, found);
+  e.symmetry = movedSymmetry(model.symmetry, e.motion);
+  setDeviations(model, cluster.cells, found[0], p.fine_reach, e);
+  e.status = fit.share < p.min_inliers ? PoseStatus::NoAgreement : PoseStatus::Found;
+  if (e.status == PoseStatus::NoAgreement)
+    e.reason = "at the best pose only " + std::to_string(std::lround(100 * fit.share)) +
+               " % of the cluster lie on the model";
+  return e;
+}
+
 } // namespace
 } // namespace pose
 
@@ -309,22 +332,7 @@ estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PosePar
   const auto found = Search(model, cluster, p).run();
   if (found.empty())
     return refusal(PoseStatus::NoAgreement, "no pair of the cluster is like one of the model", n);
-  const Fit fit = fitOf(model, cluster, found[0].to_model, p.fine_reach);
-  PoseEstimate e;
-  e.cells = n;
-  e.motion = toScene(model, frame, found[0].to_model);
-  e.score = fit.score;
-  e.inlier_share = fit.share;
-  e.coverage = coverageOf(model, cluster, found[0].to_model, p.fine_reach);
-  e.residual = std::sqrt(fit.squares) * model.diameter;
-  e.margin = marginOf(model, found);
-  e.symmetry = movedSymmetry(model.symmetry, e.motion);
-  setDeviations(model, cluster.cells, found[0], p.fine_reach, e);
-  e.status = fit.share < p.min_inliers ? PoseStatus::NoAgreement : PoseStatus::Found;
-  if (e.status == PoseStatus::NoAgreement)
-    e.reason = "at the best pose only " + std::to_string(std::lround(100 * fit.share)) +
-               " % of the cluster lie on the model";
-  return e;
+  return described(model, cluster, frame, found, p);
 }
 
 } // namespace pcl_surflet
