@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -94,22 +95,34 @@ centroidOf(const SceneItem& item, std::uint64_t seed)
   return {extent.centroid[0], extent.centroid[1], extent.centroid[2]};
 }
 
+/** \brief Of the vertices' bounding box; NaN if there are none, or one is not finite. */
+double
+diagonalOf(const TriangleMesh& mesh)
+{
+  if (mesh.vertices.empty())
+    return std::numeric_limits<double>::quiet_NaN();
+  auto low = mesh.vertices.front(), high = low;
+  double squared = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (const auto& v : mesh.vertices) {
+      if (!std::isfinite(v[a]))
+        return std::numeric_limits<double>::quiet_NaN();
+      low[a] = std::min(low[a], v[a]);
+      high[a] = std::max(high[a], v[a]);
+    }
+    const double edge = static_cast<double>(high[a]) - low[a];
+    squared += edge * edge;
+  }
+  return std::sqrt(squared);
+}
+
 } // namespace
 
 SceneSensing
 sensingFor(const SceneItem& item, double leaf)
 {
-  const TriangleMesh mesh = item.mesh();
-  double low[3], high[3], squared = 0;
-  for (std::size_t a = 0; a < 3; ++a) {
-    low[a] = high[a] = mesh.vertices.empty() ? 0 : mesh.vertices[0][a];
-    for (const auto& v : mesh.vertices) {
-      low[a] = std::min<double>(low[a], v[a]);
-      high[a] = std::max<double>(high[a], v[a]);
-    }
-    squared += (high[a] - low[a]) * (high[a] - low[a]);
-  }
-  const double diameter = std::sqrt(squared), pixels = kPixelsPerCell * kWidth * diameter / leaf;
+  const double diameter = diagonalOf(item.mesh()),
+               pixels = kPixelsPerCell * kWidth * diameter / leaf;
   if (!(leaf > 0) || !std::isfinite(leaf) || !(diameter > 0) || !(pixels <= kMostPixels))
     throw std::invalid_argument("sensingFor: cells of edge " + std::to_string(leaf) +
                                 " are not for an object of diameter " + std::to_string(diameter) +

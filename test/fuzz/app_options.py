@@ -67,7 +67,7 @@ with tempfile.TemporaryDirectory() as folder:
         for path in sorted(pathlib.Path(folder, "in", kind).iterdir()):
             path = path.rename(path.with_name(f"{path.name}.{ending}"))
             files.append(str(path.relative_to(folder)))
-    # The viewer would open windows, and the measuring apps run for minutes: theirs are only parsed.
+    # The viewer would open windows; what runs too long is stopped.
     apps = [a for a in sorted(binaries.glob("pcl_surflet_*")) if not a.name.endswith("_view")]
     tables = {app: options_of(app, folder) for app in apps}
     results, findings, end = collections.Counter(), 0, time.time() + seconds

@@ -146,6 +146,13 @@ TEST(ViewTraining, TheUnitDoesNotMatter)
   EXPECT_THROW(sensingFor(big, kLeaf), std::invalid_argument) << "metres taken for millimetres";
   EXPECT_THROW(sensingFor(item, 0), std::invalid_argument);
   EXPECT_THROW(sensingFor(item, NAN), std::invalid_argument);
+  for (const float bad : {NAN, INFINITY}) {
+    SceneItem broken = item;
+    TriangleMesh mesh = item.mesh();
+    mesh.vertices.back()[1] = bad;
+    broken.mesh = [mesh] { return mesh; };
+    EXPECT_THROW(sensingFor(broken, kLeaf), std::invalid_argument) << bad;
+  }
 }
 
 TEST(ViewTraining, AViewNeedsAModelAndEnoughCells)
