@@ -112,13 +112,14 @@ waitUntilSaid(const Running& program, const std::string& word)
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
 }
 
-/** \brief The launcher has a few words of its own to say after ours. */
+/** \brief The launcher has a few words of its own to say after ours, and where there is no /sys
+ * also before them. */
 testing::AssertionResult
-saysFirst(const std::string& all, const std::string& expected)
+saysInOnePiece(const std::string& all, const std::string& expected)
 {
-  if (all.compare(0, expected.size(), expected) == 0)
+  if (all.find(expected) != std::string::npos)
     return testing::AssertionSuccess();
-  return testing::AssertionFailure() << all << "\ndoes not begin with\n" << expected;
+  return testing::AssertionFailure() << all << "\ndoes not have in one piece\n" << expected;
 }
 
 } // namespace
@@ -138,7 +139,7 @@ TEST_F(RanksTest, TrainTheSameDatabase)
   for (const int ranks : {1, 2, 4}) {
     const AppRun r = runOn(ranks, "train", line("ranks.pcd"));
     EXPECT_EQ(r.code, 2) << ranks;
-    EXPECT_TRUE(saysFirst(r.err, alone.err)) << ranks;
+    EXPECT_TRUE(saysInOnePiece(r.err, alone.err)) << ranks;
     EXPECT_EQ(r.out, "") << ranks;
     EXPECT_TRUE(readFile(path("ranks.pcd")) == readFile(path("alone.pcd"))) << ranks;
     fs::remove(path("ranks.pcd"));
@@ -161,7 +162,7 @@ TEST_F(RanksTest, ShareThePairsOfOneFile)
   for (const int ranks : {2, 3}) {
     const AppRun r = runOn(ranks, "train", line("ranks.pcd"));
     EXPECT_EQ(r.code, 2) << ranks;
-    EXPECT_TRUE(saysFirst(r.err, alone.err)) << ranks;
+    EXPECT_TRUE(saysInOnePiece(r.err, alone.err)) << ranks;
     EXPECT_TRUE(readFile(path("ranks.pcd")) == readFile(path("alone.pcd"))) << ranks;
     fs::remove(path("ranks.pcd"));
   }
@@ -194,7 +195,7 @@ TEST_F(RanksTest, InterpretTheSame)
     const AppRun r = runOn(ranks, "interpret", line("ranks"));
     EXPECT_EQ(r.code, 2) << ranks;
     EXPECT_EQ(r.out, alone.out) << ranks;
-    EXPECT_TRUE(saysFirst(r.err, alone.err)) << ranks;
+    EXPECT_TRUE(saysInOnePiece(r.err, alone.err)) << ranks;
     std::size_t files = 0;
     for (const auto& entry : fs::directory_iterator(path("alone"))) {
       const std::string twin = path("ranks/" + entry.path().filename().string());
