@@ -23,15 +23,15 @@ struct Options {
   SceneSensing sensing;
   std::vector<std::string> peers{"ours", "classic_vfh"};
   double presence = 0.5;
-  std::vector<std::string> clutter; ///< things that no peer knows
-  std::uint64_t unknown = 0;        ///< of them present in every scene
+  SceneContents contents; ///< of which the clutter is what no peer knows
   std::uint64_t scenes = 20, tune = 5, seed = 1001, least = 50, limit = 120;
 };
 
 class Study {
 public:
-  Study(const std::vector<SceneItem>& items, const Options& o)
-      : items_(items), clutter_(itemsOf(o.clutter)), options_(o),
+  Study(const std::vector<SceneItem>& items, const std::vector<SceneItem>& clutter,
+        const Options& o)
+      : items_(items), clutter_(clutter), options_(o),
         known_(knownObjects(items, o.recogniser.leaf)),
         empty_(reduceToCells(seenBackground(o.recogniser.scene, o.recogniser.sensing),
                              o.recogniser.leaf)
@@ -61,7 +61,6 @@ private:
     SceneOptions scene = options_.recogniser.scene;
     scene.seed = seed;
     scene.present = presentOf(items_.size(), options_.presence, seed);
-    scene.clutter = std::min<std::size_t>(options_.unknown, clutter_.size());
     const Scene seen = seenScene(items_, clutter_, scene, options_.recogniser.sensing);
     Given g;
     const double leaf = options_.recogniser.leaf;
@@ -113,7 +112,7 @@ private:
   }
 
   const std::vector<SceneItem>& items_;
-  std::vector<SceneItem> clutter_;
+  const std::vector<SceneItem>& clutter_;
   Options options_;
   std::vector<Known> known_;
   std::vector<JudgedObject> judged_;
@@ -130,10 +129,7 @@ addOptions(CommandLine& line, Options& o)
              99);
   line.real("-presence", "P", "each item is present with this probability, default 0.5", o.presence,
             0, 1);
-  line.option("-clutter", "ITEM,...", "things that no method knows",
-              [&o](const std::string& text) { o.clutter = parts(text, ','); });
-  line.count("-unknown", "N", "things of the clutter in every scene, default all", o.unknown, 0,
-             1000000);
+  addClutter(line, o.contents);
   addArrangement(line, o.recogniser.scene);
   addSensor(line, o.sensing);
   line.real("-leaf", "S", "edge of the cells, default 0.0058", o.recogniser.leaf, 1e-9, 1e9);
@@ -157,8 +153,6 @@ run(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1000);
-  if (!line.given("-unknown"))
-    o.unknown = o.clutter.size();
   refuseNoiseOfViews(line);
   o.recogniser.dissertation.background = BackgroundTreatment::Exclude;
   o.recogniser.dissertation.threads = 1;
@@ -166,8 +160,9 @@ run(int argc, char** argv)
   if (line.given("-views"))
     o.recogniser.sensing = o.sensing;
   const auto items = itemsOf(line.files());
-  o.recogniser.scene.present = items.size();
-  const Study study(items, o);
+  const auto clutter = clutterOf(line, o.contents);
+  settleContents(line, o.contents, items.size(), clutter.size(), o.recogniser.scene);
+  const Study study(items, clutter, o);
   std::printf("%llu scenes, seeds %llu to %llu; thresholds from %llu scenes, seeds %llu on\n"
               "%-16s %6s %9s  %-29s  %-29s  %-29s  %-29s  %8s %s\n",
               static_cast<unsigned long long>(o.scenes), static_cast<unsigned long long>(o.seed),

@@ -72,12 +72,18 @@ itemsOf(const std::vector<std::string>& texts)
 }
 
 void
+addClutter(CommandLine& line, SceneContents& o)
+{
+  line.text("-clutter", "ITEM,...", "things unknown to the database", o.clutter);
+  line.count("-unknown", "N", "things present of the clutter, default all", o.unknown, 0, 1000000);
+}
+
+void
 addContents(CommandLine& line, SceneContents& o)
 {
   line.count("-present", "N", "items present, chosen at random, default all", o.present, 1,
              1000000);
-  line.text("-clutter", "ITEM,...", "things unknown to the database", o.clutter);
-  line.count("-unknown", "N", "things present of the clutter, default all", o.unknown, 0, 1000000);
+  addClutter(line, o);
 }
 
 std::vector<SceneItem>

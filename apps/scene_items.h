@@ -25,7 +25,10 @@ struct SceneContents {
   std::uint64_t present = 0, unknown = 0;
 };
 
-/** \brief -present, -clutter, -unknown. */
+/** \brief -clutter, -unknown. */
+void addClutter(CommandLine& line, SceneContents& target);
+
+/** \brief -present, and addClutter(). */
 void addContents(CommandLine& line, SceneContents& target);
 
 /** \brief The items of -clutter, if it was given. \throws UsageError, DataError */

@@ -19,9 +19,9 @@ removeWhere(const std::function<bool(std::size_t)>& leaves, std::vector<SceneDet
   for (std::size_t k = 0; k < found.size(); ++k) {
     if (leaves(k))
       continue;
-    kept.push_back(found[k]);
+    kept.push_back(std::move(found[k]));
     if (!poses.empty())
-      kept_poses.push_back(poses[k]);
+      kept_poses.push_back(std::move(poses[k]));
   }
   const std::size_t removed = found.size() - kept.size();
   found = std::move(kept);
@@ -29,14 +29,14 @@ removeWhere(const std::function<bool(std::size_t)>& leaves, std::vector<SceneDet
   return removed;
 }
 
-/** \brief Which detections are among the \p most of the most points. */
+/** \brief Which detections are among the \p most of the most cells. */
 std::vector<char>
 largest(const std::vector<SceneDetection>& found, std::size_t most)
 {
   std::vector<std::size_t> order(found.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return found[a].indices.size() > found[b].indices.size();
+    return found[a].cells.size() > found[b].cells.size();
   });
   std::vector<char> is_large(found.size(), 0);
   for (std::size_t k = 0; k < std::min(most, order.size()); ++k)

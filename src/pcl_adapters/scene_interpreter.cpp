@@ -256,7 +256,7 @@ detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
 double
 detail::coverageOf(std::size_t cells, double area, double leaf)
 {
-  return area > 0 ? static_cast<double>(cells) * leaf * leaf / (interpretation::kCellsOfArea * area)
+  return area > 0 ? interpretation::areaOfCells(static_cast<double>(cells), leaf) / area
                   : std::numeric_limits<double>::quiet_NaN();
 }
 

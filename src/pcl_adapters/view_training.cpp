@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -95,18 +94,14 @@ centroidOf(const SceneItem& item, std::uint64_t seed)
   return {extent.centroid[0], extent.centroid[1], extent.centroid[2]};
 }
 
-/** \brief Of the vertices' bounding box; NaN if there are none, or one is not finite. */
+/** \brief Of the vertices' bounding box. */
 double
 diagonalOf(const TriangleMesh& mesh)
 {
-  if (mesh.vertices.empty())
-    return std::numeric_limits<double>::quiet_NaN();
   auto low = mesh.vertices.front(), high = low;
   double squared = 0;
   for (std::size_t a = 0; a < 3; ++a) {
     for (const auto& v : mesh.vertices) {
-      if (!std::isfinite(v[a]))
-        return std::numeric_limits<double>::quiet_NaN();
       low[a] = std::min(low[a], v[a]);
       high[a] = std::max(high[a], v[a]);
     }
@@ -121,8 +116,10 @@ diagonalOf(const TriangleMesh& mesh)
 SceneSensing
 sensingFor(const SceneItem& item, double leaf)
 {
-  const double diameter = diagonalOf(item.mesh()),
-               pixels = kPixelsPerCell * kWidth * diameter / leaf;
+  const TriangleMesh mesh = item.mesh();
+  if (const auto problem = mesh.problem(); !problem.empty())
+    throw std::invalid_argument("sensingFor: '" + item.label + "': " + problem);
+  const double diameter = diagonalOf(mesh), pixels = kPixelsPerCell * kWidth * diameter / leaf;
   if (!(leaf > 0) || !std::isfinite(leaf) || !(diameter > 0) || !(pixels <= kMostPixels))
     throw std::invalid_argument("sensingFor: cells of edge " + std::to_string(leaf) +
                                 " are not for an object of diameter " + std::to_string(diameter) +

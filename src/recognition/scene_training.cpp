@@ -105,12 +105,6 @@ settleAll(const HistogramModel& model, const std::string& label, std::vector<Ori
   return cells;
 }
 
-double
-areaOfCells(double cells, double leaf)
-{
-  return cells * leaf * leaf / interpretation::kCellsOfArea;
-}
-
 /** \brief Where orientationsOf() turns the middle of the object to. */
 void
 teach(const CentreLesson& lesson, const std::vector<Orientation>& all, std::uint64_t seed)
@@ -141,7 +135,7 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
     cells = settleAll(model, label, all, threads);
     member.histogram = meanHistogram(all, model, seed, threads, member.features);
   }
-  model.surface_area = member.area = areaOfCells(cells, leaf);
+  model.surface_area = member.area = interpretation::areaOfCells(cells, leaf);
   return model;
 }
 
@@ -153,7 +147,8 @@ addView(HistogramModel& model, const std::string& condition, const SurfletSet& s
     throw std::invalid_argument("pcl_surflet: a view needs a model of the whole object");
   auto all = orientationsOf(seen, leaf, seed);
   ModelMember member;
-  member.area = areaOfCells(settleAll(model, model.label + "', '" + condition, all, threads), leaf);
+  member.area = interpretation::areaOfCells(
+      settleAll(model, model.label + "', '" + condition, all, threads), leaf);
   member.condition = condition;
   member.histogram = meanHistogram(all, model, seed, threads, member.features);
   model.members.push_back(std::move(member));

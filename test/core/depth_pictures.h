@@ -3,6 +3,7 @@
  */
 #pragma once
 
+#include "core/vector3.h"
 #include "pcl_surflet/core/depth_sensor.h"
 #include "pcl_surflet/core/shapes.h"
 
@@ -14,31 +15,11 @@
 namespace pcl_surflet {
 namespace test {
 
-using Vec = std::array<double, 3>;
-
-inline Vec
-minus(const Vec& a, const Vec& b)
-{
-  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-inline double
-dot(const Vec& a, const Vec& b)
-{
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-inline Vec
-cross(const Vec& a, const Vec& b)
-{
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-inline double
-length(const Vec& a)
-{
-  return std::sqrt(dot(a, a));
-}
+using Vec = detail::Vector3;
+using detail::cross;
+using detail::dot;
+using detail::norm;
+using detail::subtract;
 
 /** \brief An upright square around \p middle, seen along y. */
 inline SensedBody

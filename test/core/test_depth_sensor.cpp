@@ -21,11 +21,11 @@ namespace {
 std::optional<double>
 hit(const Vec& ray, const Vec& a, const Vec& b, const Vec& c, double& margin)
 {
-  const Vec e = minus(b, a), f = minus(c, a), p = cross(ray, f);
+  const Vec e = subtract(b, a), f = subtract(c, a), p = cross(ray, f);
   const double det = dot(e, p);
   if (det == 0)
     return {};
-  const Vec t = minus({0, 0, 0}, a), q = cross(t, e);
+  const Vec t = subtract({0, 0, 0}, a), q = cross(t, e);
   const double u = dot(t, p) / det, v = dot(ray, q) / det;
   margin = std::min({u, v, 1 - u - v});
   return dot(f, q) / det;
@@ -130,7 +130,7 @@ TEST(DepthSensor, PointsLieOnTheSceneWhereverTheSensorStands)
       if (returned(scan, i)) {
         ++seen;
         const Vec p = scan.frame.toScene(pointOf(scan, i));
-        EXPECT_NEAR(length(p), 0.5, 2e-4);
+        EXPECT_NEAR(norm(p), 0.5, 2e-4);
       }
     EXPECT_GT(seen, 500u);
   }
@@ -239,7 +239,7 @@ TEST(DepthSensor, InsideABallItSeesTheInnerWallEverywhere)
   const DepthScan scan = sense({ball(0.5)}, small(), pose, 1);
   ASSERT_EQ(returns(scan), scan.z.size());
   for (std::size_t i = 0; i < scan.z.size(); ++i)
-    EXPECT_NEAR(length(scan.frame.toScene(pointOf(scan, i))), 0.5, 2e-4);
+    EXPECT_NEAR(norm(scan.frame.toScene(pointOf(scan, i))), 0.5, 2e-4);
 }
 
 TEST(DepthSensor, AbsurdParametersAreRefused)

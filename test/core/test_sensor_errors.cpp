@@ -82,7 +82,7 @@ TEST(DepthSensor, NothingReturnsFromGrazingSurfaces)
   const DepthScan scan = sense({square({0, 1, 0}, 20, 1)}, sensor, alongY(), 1);
   std::size_t missing = 0;
   for (std::size_t i = 0; i < scan.z.size(); ++i) {
-    const double angle = std::acos(1 / length(rayOf(sensor, i))) * 180 / M_PI;
+    const double angle = std::acos(1 / norm(rayOf(sensor, i))) * 180 / M_PI;
     if (std::abs(angle - 50) > 1e-6) {
       EXPECT_EQ(returned(scan, i), angle < 50) << angle;
     }

@@ -47,12 +47,12 @@ TEST(SensorFrame, AxesAndQuaternionAgree)
     if (k % 4 == 0) // straight down
       pose.target = {pose.position[0], pose.position[1], -5};
     const SensorFrame f(pose);
-    EXPECT_NEAR(length(f.right), 1, 1e-12);
+    EXPECT_NEAR(norm(f.right), 1, 1e-12);
     EXPECT_NEAR(dot(f.right, f.forward), 0, 1e-12);
     EXPECT_NEAR(dot(cross(f.right, f.down), f.forward), 1, 1e-12) << "x, y, z are right-handed";
     EXPECT_LE(f.down[2], 1e-12) << "upright";
     const Vec p = {0.3, -0.2, 1.1}, back = f.toSensor(f.toScene(p));
-    EXPECT_LT(length(minus(p, back)), 1e-12);
+    EXPECT_LT(norm(subtract(p, back)), 1e-12);
     // q v q^-1 by its definition: v + 2 w (u x v) + 2 u x (u x v).
     const auto q = f.quaternion();
     EXPECT_GE(q[0], 0);
@@ -62,9 +62,9 @@ TEST(SensorFrame, AxesAndQuaternionAgree)
       return Vec{v[0] + 2 * q[0] * a[0] + 2 * b[0], v[1] + 2 * q[0] * a[1] + 2 * b[1],
                  v[2] + 2 * q[0] * a[2] + 2 * b[2]};
     };
-    EXPECT_LT(length(minus(turned({1, 0, 0}), f.right)), 1e-12);
-    EXPECT_LT(length(minus(turned({0, 1, 0}), f.down)), 1e-12);
-    EXPECT_LT(length(minus(turned({0, 0, 1}), f.forward)), 1e-12);
+    EXPECT_LT(norm(subtract(turned({1, 0, 0}), f.right)), 1e-12);
+    EXPECT_LT(norm(subtract(turned({0, 1, 0}), f.down)), 1e-12);
+    EXPECT_LT(norm(subtract(turned({0, 0, 1}), f.forward)), 1e-12);
   }
 }
 
@@ -83,8 +83,8 @@ TEST(SensorPoses, AreWhereTheirSetSays)
     Vec sum{0, 0, 0};
     for (const auto& pose : poses) {
       EXPECT_EQ(pose.target, o.target);
-      const Vec d = minus(pose.position, o.target);
-      EXPECT_NEAR(length(d), 2, 1e-12);
+      const Vec d = subtract(pose.position, o.target);
+      EXPECT_NEAR(norm(d), 2, 1e-12);
       for (std::size_t k = 0; k < 3; ++k)
         sum[k] += d[k];
     }
@@ -95,7 +95,7 @@ TEST(SensorPoses, AreWhereTheirSetSays)
   o.views = ViewSet::Ring24;
   const auto ring = sensorPoses(o);
   for (std::size_t k = 0; k < 24; ++k) {
-    const Vec d = minus(ring[k].position, o.target);
+    const Vec d = subtract(ring[k].position, o.target);
     EXPECT_NEAR(std::asin(d[2] / 2) * 180 / M_PI, k % 2 == 0 ? 45 : 25, 1e-9);
     const double azimuth = std::atan2(d[1], d[0]) * 180 / M_PI;
     EXPECT_NEAR(std::remainder(azimuth - 10 - 30.0 * static_cast<double>(k / 2), 360), 0, 1e-9);

@@ -1,5 +1,8 @@
 // What ends in the middle: programs that are killed while they write, callbacks that throw, and
 // locales that write numbers otherwise.
+#include "../full_disk.h"
+#include "../test_files.h"
+
 #include "core/atomic_file.h"
 #include "pcl_surflet/core/parallel.h"
 #include "pcl_surflet/core/shapes.h"
@@ -15,8 +18,6 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <locale>
 #include <stdexcept>
 
@@ -25,39 +26,13 @@
 #include <unistd.h>
 
 using namespace pcl_surflet;
+using namespace pcl_surflet::test;
 
 namespace fs = std::filesystem;
 
 namespace {
 
-class Interruptions : public testing::Test {
-protected:
-  void
-  SetUp() override
-  {
-    directory_ = fs::temp_directory_path() / ("surflet_interrupted_" + std::to_string(::getpid()));
-    fs::create_directories(directory_);
-  }
-  void
-  TearDown() override
-  {
-    fs::remove_all(directory_);
-  }
-  std::string
-  path(const std::string& name) const
-  {
-    return (directory_ / name).string();
-  }
-
-  fs::path directory_;
-};
-
-std::string
-contentOf(const std::string& path)
-{
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+using Interruptions = FileTest;
 
 SurfletSet
 torus()
@@ -114,17 +89,17 @@ TEST_F(Interruptions, AWriterThatDiesInTheMiddleLeavesTheOldFile)
   for (const rlim_t bytes : {rlim_t{1}, rlim_t{4096}, rlim_t{500000}, rlim_t{999999}}) {
     const pid_t child = ::fork();
     if (child == 0) { // the system kills who writes a byte more
-      std::signal(SIGXFSZ, SIG_DFL);
-      const rlimit limit{bytes, bytes}, no_core{0, 0};
+      const rlimit no_core{0, 0};
       ::setrlimit(RLIMIT_CORE, &no_core);
-      ::setrlimit(RLIMIT_FSIZE, &limit);
+      const FullDisk full(bytes);
+      std::signal(SIGXFSZ, SIG_DFL);
       detail::replaceFile(file, fresh);
       ::_exit(0);
     }
     int status = 0;
     ::waitpid(child, &status, 0);
     ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGXFSZ) << bytes << " " << status;
-    EXPECT_EQ(contentOf(file), old) << bytes;
+    EXPECT_EQ(readFile(file), old) << bytes;
     std::uintmax_t left = 0; // in a temporary file, in nobody's way
     for (const auto& entry : fs::directory_iterator(directory_))
       left += entry.path() == file ? 0 : entry.file_size();
@@ -132,7 +107,7 @@ TEST_F(Interruptions, AWriterThatDiesInTheMiddleLeavesTheOldFile)
     ASSERT_EQ(detail::replaceFile(file, old), "");
   }
   ASSERT_EQ(detail::replaceFile(file, fresh), "");
-  EXPECT_EQ(contentOf(file), fresh);
+  EXPECT_EQ(readFile(file), fresh);
 }
 
 TEST_F(Interruptions, AKilledWriterLeavesTheOldFileOrTheNew)
@@ -148,7 +123,7 @@ TEST_F(Interruptions, AKilledWriterLeavesTheOldFileOrTheNew)
     ::usleep(static_cast<useconds_t>(3000 + 4100 * i)); // somewhere
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    const std::string content = contentOf(file);
+    const std::string content = readFile(file);
     ASSERT_TRUE(content == old || content == fresh) << "after kill " << i;
   }
 }
@@ -210,5 +185,5 @@ TEST_F(Interruptions, FilesAreTheSameInEveryLocale)
     EXPECT_EQ(after.x, before.x);
     EXPECT_EQ(after.z, before.z);
   }
-  EXPECT_EQ(contentOf(path("comma.pcd")), contentOf(path("classic.pcd")));
+  EXPECT_EQ(readFile(path("comma.pcd")), readFile(path("classic.pcd")));
 }

@@ -133,7 +133,7 @@ expectedCells(const HistogramModel& model, double leaf)
   double least = model.areaOf(0);
   for (std::size_t k = 1; k < model.members.size(); ++k)
     least = std::min(least, model.areaOf(k));
-  return kCellsOfArea * least / (leaf * leaf);
+  return least / areaOfCells(1, leaf);
 }
 
 } // namespace

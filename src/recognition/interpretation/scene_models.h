@@ -20,6 +20,13 @@ constexpr std::uint32_t kBeyond = std::numeric_limits<std::uint32_t>::max();
  * bottle, bunny, dragon and horse: 1.22 to 1.32). Less where walls are thinner than cells. */
 constexpr double kCellsOfArea = 1.27;
 
+/** \brief Area of the surface that occupies so many cells of edge \p leaf. */
+inline double
+areaOfCells(double cells, double leaf)
+{
+  return cells * leaf * leaf / kCellsOfArea;
+}
+
 constexpr float kMostSupport = 3; ///< limit of a pair's support, nats
 
 /** \brief One model with tables over its bins. */

@@ -178,9 +178,9 @@ OnlineInterpretation::State::noteOf(const OnlineDetection& d, const Indices& own
 {
   Note note;
   note.patch = patchOf(cells.means(), own);
-  const double s = parameters.leaf,
-               area = database[d.model].surface_area * interpretation::kCellsOfArea;
-  note.coverage = area > 0 ? static_cast<double>(own.size()) * s * s / area
+  const double area = database[d.model].surface_area;
+  const auto cells_seen = static_cast<double>(own.size());
+  note.coverage = area > 0 ? interpretation::areaOfCells(cells_seen, parameters.leaf) / area
                            : std::numeric_limits<double>::quiet_NaN();
   note.is_in_doubt =
       note.coverage < parameters.coverage || (database.size() > 1 && d.margin < parameters.margin);
