@@ -184,8 +184,7 @@ writeFile(const std::string& path, const std::string& content)
 {
   refuseOverwriting(path);
   if (const auto problem = detail::replaceFile(path, content); !problem.empty())
-    throw DataError("cannot write '" + path + "': " + problem +
-                    "; check the directory, its permissions and the free space");
+    throw DataError("cannot write '" + path + "': " + problem);
 }
 
 } // namespace apps

@@ -12,6 +12,7 @@ namespace apps {
 namespace {
 
 constexpr std::size_t kColumns = 5;
+constexpr const char* kPicture = "objects.png";
 constexpr std::size_t kDots = 9000;
 
 struct Dot {
@@ -94,7 +95,7 @@ scriptFor(const std::vector<ExperimentObject>& objects)
   std::ostringstream script;
   script.imbue(std::locale::classic());
   script << "set terminal pngcairo size 1500," << 330 * rows << " font 'sans,12'\n"
-         << "set output 'objects.png'\nunset key\nunset tics\nunset border\n"
+         << outputStatements(kPicture) << "unset key\nunset tics\nunset border\n"
          << "set lmargin 1\nset rmargin 1\nset bmargin 0.3\nset tmargin 1.2\nset multiplot\n";
   for (std::size_t i = 0; i < objects.size(); ++i)
     addCell(script, objects[i].label, i, rows);
@@ -111,7 +112,7 @@ drawGallery(const std::vector<ExperimentObject>& objects, const ModelDatabase& d
   writeFile(directory + "/points.dat", pointData(objects));
   writeFile(directory + "/histograms.dat", histogramData(database));
   writeFile(directory + "/gallery.gp", scriptFor(objects));
-  return drawByGnuplot(directory, "gallery.gp");
+  return drawByGnuplot(directory, "gallery.gp", kPicture);
 }
 
 } // namespace apps

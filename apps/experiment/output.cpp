@@ -2,7 +2,7 @@
 
 #include "app_common.h"
 
-#include <cstdlib>
+#include <cstdio>
 #include <filesystem>
 
 namespace pcl_surflet {
@@ -19,6 +19,20 @@ shellQuoted(const std::string& text)
   return quoted + "'";
 }
 
+/** \brief What the command of a shell prints, empty if it fails. */
+std::string
+outputOf(const std::string& command)
+{
+  std::FILE* pipe = ::popen(command.c_str(), "r");
+  if (pipe == nullptr)
+    return {};
+  std::string out;
+  char block[4096];
+  while (const std::size_t read = std::fread(block, 1, sizeof block, pipe))
+    out.append(block, read);
+  return ::pclose(pipe) == 0 ? out : std::string();
+}
+
 } // namespace
 
 void
@@ -32,13 +46,23 @@ makeDirectory(const std::string& path)
 }
 
 std::string
-drawByGnuplot(const std::string& directory, const std::string& script)
+outputStatements(const std::string& picture)
 {
-  // Absolute, lest a leading dash make an option of it.
+  return "if (!exists('picture')) picture = '" + picture + "'\nset output picture\n";
+}
+
+std::string
+drawByGnuplot(const std::string& directory, const std::string& script, const std::string& picture)
+{
+  // By itself gnuplot leaves half a picture on a full disk, and says that all went well. The path
+  // is absolute, lest a leading dash make an option of it.
   const std::string place = std::filesystem::absolute(directory).string();
-  const std::string command = "cd " + shellQuoted(place) + " && gnuplot " + shellQuoted(script);
-  if (std::system(command.c_str()) != 0)
+  const std::string drawn =
+      outputOf("cd " + shellQuoted(place) + " && gnuplot -e \"picture='/dev/stdout'\" " +
+               shellQuoted(script));
+  if (drawn.empty())
     return "gnuplot is missing or failed; install gnuplot-nox and run it on " + script;
+  writeFile(directory + "/" + picture, drawn);
   return {};
 }
 

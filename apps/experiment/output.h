@@ -15,10 +15,17 @@ namespace apps {
 /** \brief Makes the directory \p path and those above it. \throws DataError */
 void makeDirectory(const std::string& path);
 
-/** \brief Runs gnuplot on \p script in \p directory.
+/** \brief The statements of a script by which it draws \p picture, run by hand, and what
+ * drawByGnuplot() asks for, run by it. */
+std::string outputStatements(const std::string& picture);
+
+/** \brief Runs gnuplot on \p script in \p directory, and writes what it draws to \p picture
+ * there.
  * \return an empty string, or why there is no picture (gnuplot missing or failing): an
- * experiment's numbers do not depend on it */
-std::string drawByGnuplot(const std::string& directory, const std::string& script);
+ * experiment's numbers do not depend on it
+ * \throws DataError if the picture cannot be written */
+std::string drawByGnuplot(const std::string& directory, const std::string& script,
+                          const std::string& picture);
 
 /** \brief snprintf into a string of at most 800 bytes, for tables; no program here sets a locale.
  */

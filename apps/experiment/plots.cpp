@@ -65,13 +65,13 @@ panelCommands(const std::string& base, const Panel& panel, std::size_t first_blo
 }
 
 std::string
-draw(const std::string& directory, const std::string& base, const std::string& data,
-     const std::string& script)
+draw(const std::string& directory, const std::string& base, const std::string& picture,
+     const std::string& data, const std::string& script)
 {
   writeFile(directory + "/" + base + ".dat", data);
   writeFile(directory + "/" + base + ".gnuplot",
             "# Run in this folder: gnuplot " + base + ".gnuplot\n" + script);
-  return drawByGnuplot(directory, base + ".gnuplot");
+  return drawByGnuplot(directory, base + ".gnuplot", picture);
 }
 
 /** \brief Rows of a grid that holds \p count things in \p columns. */
@@ -91,19 +91,20 @@ drawPanels(const std::string& directory, const std::string& base, const std::vec
   const std::size_t rows = rowsFor(panels.size(), columns);
   const std::size_t width = small ? 200 : (columns == 1 ? 720 : 400), height = small ? 150 : 380;
   const std::string terminal = small ? "pngcairo" : "svg"; // the frames alone take 300 kB of SVG
+  const std::string picture = base + (small ? ".png" : ".svg");
   std::string script =
-      formatted("set terminal %s size %zu,%zu background rgb 'white' font 'sans,%d'\n"
-                "set output '%s.%s'\nset multiplot layout %zu,%zu\nset yrange [0:105]\n"
-                "set grid lc rgb '#dddddd'\nset key outside bottom center horizontal\n"
-                "set ytics 20\n",
-                terminal.c_str(), columns * width, rows * height, small ? 8 : 11, base.c_str(),
-                small ? "png" : "svg", rows, columns);
+      formatted("set terminal %s size %zu,%zu background rgb 'white' font 'sans,%d'\n",
+                terminal.c_str(), columns * width, rows * height, small ? 8 : 11) +
+      outputStatements(picture) +
+      formatted("set multiplot layout %zu,%zu\nset yrange [0:105]\nset grid lc rgb '#dddddd'\n"
+                "set key outside bottom center horizontal\nset ytics 20\n",
+                rows, columns);
   std::size_t block = 0;
   for (const auto& panel : panels) {
     script += panelCommands(base, panel, block, small);
     block += panel.curves.size();
   }
-  return draw(directory, base, dataOf(panels), script + "unset multiplot\n");
+  return draw(directory, base, picture, dataOf(panels), script + "unset multiplot\n");
 }
 
 std::string
@@ -112,11 +113,14 @@ drawConfusions(const std::string& directory, const std::string& base,
 {
   const std::size_t rows = rowsFor(pictures.size(), columns);
   std::string data;
-  std::string script = formatted(
-      "set terminal pngcairo size %zu,%zu font 'sans,11'\nset output '%s.png'\n"
-      "set multiplot layout %zu,%zu\nset palette gray\nset cbrange [0:1]\nunset colorbox\n"
-      "unset tics\nset size square\nset xlabel 'test objects'\nset ylabel 'trained objects'\n",
-      columns * 300, rows * 320, base.c_str(), rows, columns);
+  const std::string picture = base + ".png";
+  std::string script =
+      formatted("set terminal pngcairo size %zu,%zu font 'sans,11'\n", columns * 300, rows * 320) +
+      outputStatements(picture) +
+      formatted("set multiplot layout %zu,%zu\nset palette gray\nset cbrange [0:1]\n"
+                "unset colorbox\nunset tics\nset size square\nset xlabel 'test objects'\n"
+                "set ylabel 'trained objects'\n",
+                rows, columns);
   for (std::size_t p = 0; p < pictures.size(); ++p) {
     const auto& rates = pictures[p].rates;
     for (std::size_t answer = 0; answer < rates.size(); ++answer) {
@@ -130,7 +134,7 @@ drawConfusions(const std::string& directory, const std::string& base,
                         rates.size() - 1) +
               formatted("plot '%s.dat' index %zu matrix with image notitle\n", base.c_str(), p);
   }
-  return draw(directory, base, data, script + "unset multiplot\n");
+  return draw(directory, base, picture, data, script + "unset multiplot\n");
 }
 
 } // namespace apps

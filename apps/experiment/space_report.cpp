@@ -11,6 +11,7 @@ namespace apps {
 namespace {
 
 constexpr const char* kBase = "experiment_46";
+constexpr const char* kPicture = "experiment_46.svg";
 
 std::string
 csvOf(const std::vector<SpaceRow>& rows)
@@ -53,10 +54,12 @@ plotOf(const SpaceOptions& options)
   const std::set<std::uint64_t> steps = {0, options.saturations / 2, options.saturations - 1};
   std::string out =
       formatted("# Run in this folder: gnuplot %s.gnuplot\n"
-                "set terminal svg size 900,%zu background rgb 'white'\nset output '%s.svg'\n"
-                "set datafile separator ','\nset multiplot layout %zu,2\nset logscale y\n"
+                "set terminal svg size 900,%zu background rgb 'white'\n",
+                kBase, 300 * steps.size()) +
+      outputStatements(kPicture) +
+      formatted("set datafile separator ','\nset multiplot layout %zu,2\nset logscale y\n"
                 "set xlabel 'r'\nset key bottom right\nnames = 'list octree avl linear'\n",
-                kBase, 300 * steps.size(), kBase, steps.size());
+                steps.size());
   for (const auto step : steps)
     out += cutsAt(saturationOf(options, step));
   return out + "unset multiplot\n";
@@ -117,7 +120,7 @@ reportSpace(const SpaceOptions& options)
       [&](const auto& show) { return runSpace(options, show); });
   writeFile(base + ".csv", csvOf(rows));
   printSummary(rows);
-  const auto no_picture = drawByGnuplot(options.out, std::string(kBase) + ".gnuplot");
+  const auto no_picture = drawByGnuplot(options.out, std::string(kBase) + ".gnuplot", kPicture);
   std::printf("\nwrote %s.csv and .gnuplot%s\n", base.c_str(),
               no_picture.empty() ? " and .svg" : "");
   if (!no_picture.empty())

@@ -80,7 +80,8 @@ VirtualDisplay::VirtualDisplay()
       return;
   }
   throw DataError("cannot draw: there is no display (DISPLAY) and the X server without screen, "
-                  "Xvfb, does not start; install it (apt-get install xvfb libgl1-mesa-dri)");
+                  "Xvfb, does not start; install it (apt-get install xvfb libgl1-mesa-dri), or make "
+                  "room in /tmp if it is there");
 }
 
 VirtualDisplay::~VirtualDisplay()

@@ -62,10 +62,8 @@ writeDirectly(const fs::path& target, const std::string& content)
   return error == 0 ? std::string() : std::strerror(error);
 }
 
-} // namespace
-
 std::string
-detail::replaceFile(const std::string& path, const std::string& content)
+causeOfNotReplacing(const std::string& path, const std::string& content)
 {
   std::error_code ignored;
   fs::path target = path;
@@ -94,6 +92,16 @@ detail::replaceFile(const std::string& path, const std::string& content)
     return {};
   ::unlink(temporary.c_str());
   return std::strerror(error);
+}
+
+} // namespace
+
+std::string
+detail::replaceFile(const std::string& path, const std::string& content)
+{
+  const std::string cause = causeOfNotReplacing(path, content);
+  return cause.empty() ? cause
+                       : cause + "; check the directory, its permissions and the free space";
 }
 
 } // namespace pcl_surflet

@@ -257,6 +257,9 @@ LinearOctreeBuilder::fillNode(std::size_t node, std::uint32_t begin, std::uint32
   made.begin = begin;
   made.child = bottom ? 0 : static_cast<std::uint32_t>(first_child);
   made.cut[0] = static_cast<std::uint8_t>(parts);
+  for (std::size_t k = 0; bottom && k < kernels::kFanOut; ++k)
+    made.cut[k] =
+        static_cast<std::uint8_t>(cuts[std::min(k + 1, static_cast<std::size_t>(parts))] - begin);
   for (int slot = 0; slot < static_cast<int>(kernels::kFanOut); ++slot) {
     Box box;
     if (slot < parts && bottom)
@@ -267,9 +270,6 @@ LinearOctreeBuilder::fillNode(std::size_t node, std::uint32_t begin, std::uint32
       box = boxOfNode(child);
     }
     setBox(node, slot, box);
-    if (bottom)
-      data_.nodes[node].cut[slot] =
-          static_cast<std::uint8_t>(cuts[std::min(slot + 1, parts)] - begin);
   }
 }
 

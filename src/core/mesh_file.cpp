@@ -175,8 +175,7 @@ saveOff(const TriangleMesh& mesh, const std::string& path)
     throw MeshFileError(path + ": not written: " + cause);
   cause = detail::replaceFile(path, offText(mesh));
   if (!cause.empty())
-    throw MeshFileError(path + ": cannot be written: " + cause +
-                        "; check the directory, its permissions and the free space");
+    throw MeshFileError(path + ": cannot be written: " + cause);
 }
 
 } // namespace pcl_surflet

@@ -11,12 +11,15 @@
 #include "pcl_surflet/sensed_surface.h"
 #include "pcl_surflet/surflet_pair_feature.h"
 #include "pcl_surflet/surflet_pair_histogram.h"
+#include "pcl_surflet/view_training.h"
 
 #include <pcl/console/print.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
+#include <stdexcept>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::test;
@@ -70,6 +73,18 @@ expectModelOrError(const std::string& name, const Train& train)
   catch (const std::exception& error) {
     ADD_FAILURE() << name << ": " << error.what();
   }
+}
+
+/** \brief The points as the corners of triangles, each with the next two. */
+TriangleMesh
+stripOf(const HostileCloud& cloud)
+{
+  TriangleMesh mesh;
+  for (const auto& p : cloud)
+    mesh.vertices.push_back({p.x, p.y, p.z});
+  for (std::uint32_t i = 0; i + 2 < cloud.size(); ++i)
+    mesh.triangles.push_back({i, i + 1, i + 2});
+  return mesh;
 }
 
 std::size_t
@@ -140,6 +155,29 @@ TEST_F(HostileModels, TrainedModels)
     catch (const std::invalid_argument&) { // the leaf does not go with the extent
     }
   }
+}
+
+TEST_F(HostileModels, TrainedForSensors)
+{
+  std::size_t trained = 0;
+  for (const auto& [name, cloud] : hostileClouds()) {
+    const TriangleMesh mesh = stripOf(*cloud);
+    for (const double leaf : {0.0, -1.0, 1e-30, 0.2, 1e30, std::nan("")})
+      try {
+        const SceneItem item = sceneItem("x", mesh);
+        const auto model =
+            trainForSensors(quickTrainer(), item, sensingFor(item, leaf), leaf, 1, 1);
+        EXPECT_EQ(model.problem(), "") << name;
+        ++trained;
+      }
+      catch (const std::exception& error) { // TrainingError, or something does not go together
+        const bool documented = dynamic_cast<const TrainingError*>(&error) != nullptr ||
+                                dynamic_cast<const std::invalid_argument*>(&error) != nullptr;
+        EXPECT_TRUE(documented) << name << " " << leaf << ": " << error.what();
+        EXPECT_GT(std::string(error.what()).size(), 20U) << name;
+      }
+  }
+  EXPECT_GT(trained, 2U) << "some are but odd";
 }
 
 TEST_F(HostileModels, ModelBanks)

@@ -157,13 +157,16 @@ compete(const SceneData& scene, std::vector<ClustersOfModel>& clusters,
   const auto remove = [&](std::size_t i) {
     all.erase(all.begin() + static_cast<std::ptrdiff_t>(i));
   };
-  for (Collision c; (c = nearestCollision(scene, all, true)).a != c.b;) {
+  const auto nearest = [&](bool of_one_model) {
+    return nearestCollision(scene, all, of_one_model);
+  };
+  for (Collision c = nearest(true); c.a != c.b; c = nearest(true)) {
     join(scene, all[c.a], all[c.b]);
     ++diagnosticsOf(c.b).merged;
     remove(c.b);
   }
   const LargestOfModel largest(clusters.size(), all);
-  for (Collision c; (c = nearestCollision(scene, all, false)).a != c.b;) {
+  for (Collision c = nearest(false); c.a != c.b; c = nearest(false)) {
     const std::size_t loser = wins(all[c.a], all[c.b], largest) ? c.b : c.a;
     ++diagnosticsOf(loser).lost;
     remove(loser);
