@@ -1,6 +1,7 @@
 #include "app_common.h"
 
 #include "core/atomic_file.h"
+#include "core/number_text.h"
 #include "pcl_surflet/database_file.h"
 
 #include <pcl/console/print.h>
@@ -47,6 +48,21 @@ parseCount(const std::string& option, const std::string& text, std::uint64_t low
            std::uint64_t high)
 {
   return parseNumber<std::uint64_t>(option, text, "a whole number", low, high);
+}
+
+std::array<double, 3>
+parsePlace(const std::string& option, const std::string& text)
+{
+  std::array<double, 3> place{};
+  std::size_t from = 0;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t comma = text.find(',', from);
+    if ((comma == std::string::npos) != (a == 2))
+      throw UsageError("option " + option + ": '" + text + "' is not like 0,0,1.5");
+    place[a] = parseReal(option, text.substr(from, comma - from), -1e9, 1e9);
+    from = comma + 1;
+  }
+  return place;
 }
 
 double
@@ -150,16 +166,22 @@ csvField(const std::string& text)
 std::string
 number(double value)
 {
-  char digits[32];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::general, 6).ptr;
-  return std::string(digits, end);
+  return detail::numberText(value);
 }
 
 std::string
 stemOf(const std::string& path)
 {
   return std::filesystem::path(path).stem().string();
+}
+
+bool
+hasEnding(const std::string& path, const std::string& ending)
+{
+  const std::string own = std::filesystem::path(path).extension().string();
+  return std::equal(own.begin(), own.end(), ending.begin(), ending.end(), [](char a, char b) {
+    return (a >= 'A' && a <= 'Z' ? static_cast<char>(a - 'A' + 'a') : a) == b;
+  });
 }
 
 std::string

@@ -7,8 +7,10 @@
 
 #include "pcl_surflet/recognition/model_database.h"
 
+#include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -38,6 +40,9 @@ std::uint64_t parseCount(const std::string& option, const std::string& text, std
 /** \brief Reads \p text as a finite number in [\p low, \p high]. \throws UsageError naming
  * \p option */
 double parseReal(const std::string& option, const std::string& text, double low, double high);
+
+/** \brief Reads \p text, X,Y,Z, as a place. \throws UsageError naming \p option */
+std::array<double, 3> parsePlace(const std::string& option, const std::string& text);
 
 /** \brief The command line of one program: options with one dash, then files, in any order. */
 class CommandLine {
@@ -127,6 +132,9 @@ std::string number(double value);
 /** \brief File name without directory and ending. */
 std::string stemOf(const std::string& path);
 
+/** \brief Does \p path end in \p ending (".png"), in capitals or not? */
+bool hasEnding(const std::string& path, const std::string& ending);
+
 /** \brief Refuses to write to \p path if several words of the command line are names of that file,
  * so that it is read as well as written, or written twice.
  *
@@ -149,7 +157,12 @@ std::string about(const std::string& path, const std::string& message);
 ///@{
 void addSeed(CommandLine& line, std::uint64_t& target);
 void addThreads(CommandLine& line, std::uint64_t& target);
-void addNeighbours(CommandLine& line, std::uint64_t& target);
+/** \brief How normals that a file lacks are estimated. */
+struct MissingNormals {
+  std::uint64_t neighbours = 0;                ///< 0: they are not
+  std::optional<std::array<double, 3>> sensor; ///< default: the file's VIEWPOINT
+};
+void addMissingNormals(CommandLine& line, MissingNormals& target);
 ///@}
 
 } // namespace apps

@@ -194,11 +194,17 @@ addThreads(CommandLine& line, std::uint64_t& target)
 }
 
 void
-addNeighbours(CommandLine& line, std::uint64_t& target)
+addMissingNormals(CommandLine& line, MissingNormals& target)
 {
   line.count("-k", "K",
-             "estimate missing normals from K neighbours, seen from the file's viewpoint", target,
-             3, 10000);
+             "estimate missing normals from K neighbours, turned to the sensor; organised clouds "
+             "have theirs from neighbouring pixels without this option",
+             target.neighbours, 3, 10000);
+  line.option(
+      "-sensor_at", "X,Y,Z",
+      "where the sensor was, for missing normals, in the coordinates of the points; default "
+      "the file's VIEWPOINT. 0,0,0 if that tells the pose of the sensor in a world",
+      [&target](const std::string& text) { target.sensor = parsePlace("-sensor_at", text); });
 }
 
 } // namespace apps

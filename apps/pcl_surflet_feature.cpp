@@ -18,14 +18,14 @@ constexpr const char* kProgram = "pcl_surflet_feature";
 
 struct Options {
   double delta_max = 0;
-  std::uint64_t pairs = 1000000, seed = 1, neighbours = 0;
+  std::uint64_t pairs = 1000000, seed = 1;
+  MissingNormals normals;
 };
 
 pcl::PointCloud<SurfletPairHistogram625>
 describe(const std::string& path, const Options& o)
 {
-  const auto cloud =
-      cloudOf(surfletsOf(readSurface(path, o.neighbours, 0), kQuerySurflets, o.seed));
+  const auto cloud = cloudOf(surfletsOf(readSurface(path, o.normals, 0), kQuerySurflets, o.seed));
   SurfletPairHistogramEstimation<pcl::PointNormal, pcl::PointNormal> estimation;
   estimation.setInputCloud(cloud);
   estimation.setInputNormals(cloud);
@@ -60,7 +60,7 @@ feature(int argc, char** argv)
   line.count("-pairs", "N", "pairs drawn, default 1000000; all if there are no more", o.pairs, 1,
              1000000000000ULL);
   addSeed(line, o.seed);
-  addNeighbours(line, o.neighbours);
+  addMissingNormals(line, o.normals);
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(2, 2);

@@ -29,7 +29,7 @@ void
 printCsv(const ModelDatabase& database)
 {
   std::cout << "label,role,member,condition,resolution,delta_max,r_mean,r_max,r_min,surface_area,"
-               "features,empty_bins,penalty\n";
+               "features,empty_bins,penalty,leaf\n";
   for (std::size_t i = 0; i < database.size(); ++i) {
     const HistogramModel& m = database[i];
     for (std::size_t k = 0; k < m.members.size(); ++k)
@@ -38,7 +38,7 @@ printCsv(const ModelDatabase& database)
                 << "," << number(m.delta_max) << "," << number(m.r_mean) << "," << number(m.r_max)
                 << "," << number(m.r_min) << "," << number(m.surface_area) << ","
                 << m.members[k].features << "," << number(emptyShare(m.members[k])) << ","
-                << number(database.penaltyMinimum()) << "\n";
+                << number(database.penaltyMinimum()) << "," << number(m.leaf) << "\n";
   }
 }
 
@@ -55,7 +55,8 @@ printText(const std::string& path, const ModelDatabase& database)
     std::cout << m.label << "  " << roleName(m) << "  delta_max " << number(m.delta_max)
               << "  r_mean " << number(m.r_mean) << "  r_max " << number(m.r_max) << "  r_min "
               << number(m.r_min) << "  area "
-              << (m.surface_area > 0 ? number(m.surface_area) : std::string("unknown")) << "\n";
+              << (m.surface_area > 0 ? number(m.surface_area) : std::string("unknown"))
+              << (m.leaf > 0 ? "  cells " + number(m.leaf) : std::string()) << "\n";
     for (const auto& member : m.members)
       std::cout << "  " << (member.condition.empty() ? "member" : member.condition) << ": "
                 << member.features << " features, " << number(100 * emptyShare(member))

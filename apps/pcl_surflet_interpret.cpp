@@ -31,7 +31,7 @@ interpretAll(SceneWorker& worker, const InterpretOptions& o, Ranks& ranks)
           deliver(scene, o);
         }
         catch (const std::exception& error) {
-          complain(about(o.files[i], error.what()));
+          complain(std::string(kProgram) + ": " + about(o.files[i], error.what()));
           code = kBadData;
         }
       });

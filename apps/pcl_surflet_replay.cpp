@@ -181,8 +181,10 @@ run(int argc, char** argv)
   });
   line.text("-empty", "EMPTY.pcd", "the scene without objects, in its frame, to be left out",
             o.empty);
-  line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
-            1e-9, 1e9);
+  line.real("-leaf", "S",
+            "edge of the cells, default what all models were trained for, else a fiftieth of the "
+            "largest",
+            o.leaf, 1e-9, 1e9);
   line.real("-behind", "N",
             "a cell vanishes if rays past it end N leaves behind it, default 1.5; 0: never",
             o.behind, 0, 1e6);

@@ -28,14 +28,8 @@ std::vector<std::array<double, 3>>
 viewpointsIn(const std::string& text)
 {
   std::vector<std::array<double, 3>> out;
-  for (const auto& place : parts(text, ':')) {
-    const auto axes = parts(place, ',');
-    if (axes.size() != 3)
-      throw UsageError("option -viewpoints: '" + place + "' is not like 0,0,1.5");
-    out.emplace_back();
-    for (std::size_t a = 0; a < 3; ++a)
-      out.back()[a] = parseReal("-viewpoints", axes[a], -1e9, 1e9);
-  }
+  for (const auto& place : parts(text, ':'))
+    out.push_back(parsePlace("-viewpoints", place));
   return out;
 }
 

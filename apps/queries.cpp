@@ -15,14 +15,14 @@ addQueryOptions(CommandLine& line, const std::string& columns, QueryOptions& o)
              1000000);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
-  addNeighbours(line, o.neighbours);
+  addMissingNormals(line, o.normals);
   line.flag("-csv", "print a table with the columns " + columns, o.csv);
 }
 
 SurfletSet
 queryFrom(const std::string& path, const QueryOptions& o, std::uint64_t threads)
 {
-  return surfletsOf(readSurface(path, o.neighbours, threads), kQuerySurflets, o.seed);
+  return surfletsOf(readSurface(path, o.normals, threads), kQuerySurflets, o.seed);
 }
 
 void

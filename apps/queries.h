@@ -17,7 +17,8 @@ constexpr std::size_t kQuerySurflets = 4500;
 
 struct QueryOptions {
   std::string database;
-  std::uint64_t features = 0, top = 3, seed = 1, threads = 0, neighbours = 0;
+  std::uint64_t features = 0, top = 3, seed = 1, threads = 0;
+  MissingNormals normals;
   bool csv = false;
 };
 

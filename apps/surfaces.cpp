@@ -4,10 +4,11 @@ namespace pcl_surflet {
 namespace apps {
 
 SurfaceFile
-readSurface(const std::string& path, std::uint64_t neighbours, std::uint64_t threads)
+readSurface(const std::string& path, const MissingNormals& normals, std::uint64_t threads)
 {
   SurfaceFileOptions options;
-  options.estimate_normals = static_cast<int>(neighbours);
+  options.estimate_normals = static_cast<int>(normals.neighbours);
+  options.sensor = normals.sensor;
   options.threads = static_cast<unsigned>(threads);
   return loadSurface(path, options);
 }

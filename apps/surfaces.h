@@ -2,6 +2,8 @@
  * Files that programs read surfaces from, and clouds made of them. */
 #pragma once
 
+#include "app_common.h"
+
 #include "pcl_surflet/surface_file.h"
 
 #include <pcl/point_cloud.h>
@@ -13,9 +15,10 @@
 namespace pcl_surflet {
 namespace apps {
 
-/** \brief loadSurface() with the values of the options -k (0: none) and -threads (0: all).
+/** \brief loadSurface() with the values of the options of missing normals and of -threads (0: all).
  * \throws SurfaceFileError */
-SurfaceFile readSurface(const std::string& path, std::uint64_t neighbours, std::uint64_t threads);
+SurfaceFile readSurface(const std::string& path, const MissingNormals& normals,
+                        std::uint64_t threads);
 
 /** \brief How many points of \p path could not be used; empty if all could. */
 std::string losses(const std::string& path, const SurfaceFile& file);

@@ -2,6 +2,8 @@
 
 #include "scene_items.h"
 
+#include <map>
+
 namespace pcl_surflet {
 namespace apps {
 namespace {
@@ -22,8 +24,10 @@ addOptions(CommandLine& line, InterpretOptions& o)
              o.planes, 1, 100);
   line.real("-distance", "D", "exclude: what is so near to the background, default a cell",
             o.distance, 1e-9, 1e9);
-  line.real("-leaf", "S", "edge of the cells, default a fiftieth of the largest model", o.leaf,
-            1e-9, 1e9);
+  line.real("-leaf", "S",
+            "edge of the cells, default what all models were trained for, else a fiftieth of the "
+            "largest",
+            o.leaf, 1e-9, 1e9);
   line.count("-max", "N", "detections, those of the most cells, default all", o.detections, 1,
              1000000);
   line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
@@ -39,7 +43,7 @@ addOptions(CommandLine& line, InterpretOptions& o)
   o.pose.addOptions(line);
   line.flag("-csv", "prints CSV", o.csv);
   line.flag("-verbose", "prints what each step did for each model to stderr", o.verbose);
-  addNeighbours(line, o.neighbours);
+  addMissingNormals(line, o.normals);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
 }
@@ -53,6 +57,24 @@ checkBackground(const CommandLine& line, const InterpretOptions& o)
       throw UsageError(std::string("option ") + name + " goes with -background exclude");
   if (excludes && !line.given("-empty") && !line.given("-planes"))
     throw UsageError("option -background exclude needs -empty or -planes");
+}
+
+/** \brief Objects are named by their scene. */
+void
+checkStems(const std::vector<std::string>& files)
+{
+  std::map<std::string, std::string> seen;
+  for (const auto& file : files)
+    if (const auto [at, is_new] = seen.try_emplace(stemOf(file), file); !is_new)
+      throw UsageError("'" + at->second + "' and '" + file +
+                       "' would have the same names by option -objects_dir; give them one by one");
+}
+
+void
+checkPicture(const std::string& path)
+{
+  if (!path.empty() && !hasEnding(path, ".png"))
+    throw UsageError("option -picture: '" + path + "' does not end in .png");
 }
 
 } // namespace
@@ -76,6 +98,9 @@ readInterpretOptions(const std::string& program, int argc, char** argv, Interpre
   if (o.pose.verify && o.method == Method::Dissertation)
     throw UsageError("option -verify is for -method explanation");
   o.files = line.files();
+  checkPicture(o.picture);
+  if (!o.objects_dir.empty())
+    checkStems(o.files);
   return true;
 }
 

@@ -19,7 +19,8 @@ struct InterpretOptions {
   BackgroundTreatment background = BackgroundTreatment::Ignore;
   double leaf = 0, distance = 0;
   double min_confidence = 0.1; ///< of what is below, few are right: detail::confidenceOf()
-  std::uint64_t planes = 0, neighbours = 0, threads = 0, detections = 0, seed = 1;
+  std::uint64_t planes = 0, threads = 0, detections = 0, seed = 1;
+  MissingNormals normals;
   bool csv = false, verbose = false;
   PoseJob pose;
   std::vector<std::string> files;

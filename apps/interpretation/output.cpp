@@ -2,6 +2,9 @@
 
 #include "picture.h"
 
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 #include <system_error>
@@ -12,22 +15,32 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-/** \brief A file that is gone with the object. */
-struct TemporaryFile {
-  std::string path;
-  explicit TemporaryFile(const std::string& what)
-      : path((std::filesystem::temp_directory_path() /
-              ("pcl_surflet_interpret_" + std::to_string(::getpid()) + what + ".pcd"))
-                 .string())
+/** \brief A directory of our own that is gone with the object: a name that others can guess in a
+ * directory that all may write to could be a link of theirs. */
+class TemporaryDirectory {
+public:
+  TemporaryDirectory()
+      : path_((std::filesystem::temp_directory_path() / "pcl_surflet_interpret_XXXXXX").string())
   {
+    if (::mkdtemp(path_.data()) == nullptr)
+      throw DataError("cannot make the directory '" + path_ + "': " + std::strerror(errno) +
+                      "; make room there, or name another by TMPDIR");
   }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile()
+  TemporaryDirectory(const TemporaryDirectory&) = delete;
+  TemporaryDirectory& operator=(const TemporaryDirectory&) = delete;
+  ~TemporaryDirectory()
   {
     std::error_code failure;
-    std::filesystem::remove(path, failure);
+    std::filesystem::remove_all(path_, failure);
   }
+  std::string
+  file(const std::string& name) const
+  {
+    return path_ + "/" + name;
+  }
+
+private:
+  std::string path_;
 };
 
 void
@@ -43,14 +56,16 @@ writeObjects(const std::vector<NamedContent>& objects, const std::string& direct
 void
 writeScene(const InterpretedScene& scene, const InterpretOptions& o)
 {
-  const TemporaryFile temporary(""), overlay("_poses");
-  const std::string labelled = o.out.empty() ? temporary.path : o.out;
-  writeFile(labelled, scene.labelled);
+  if (!o.out.empty())
+    writeFile(o.out, scene.labelled);
   if (o.picture.empty())
     return;
-  if (!scene.posed.empty())
-    writeFile(overlay.path, scene.posed);
-  drawPicture(labelled, o.database, o.picture, scene.posed.empty() ? "" : overlay.path);
+  const TemporaryDirectory drawn;
+  writeFile(drawn.file("scene.pcd"), scene.labelled);
+  const std::string overlay = scene.posed.empty() ? "" : drawn.file("poses.pcd");
+  if (!overlay.empty())
+    writeFile(overlay, scene.posed);
+  drawPicture(drawn.file("scene.pcd"), o.database, o.picture, overlay);
 }
 
 } // namespace

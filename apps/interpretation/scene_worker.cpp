@@ -5,6 +5,8 @@
 #include "labelled_pcd.h"
 #include "surfaces.h"
 
+#include <cmath>
+
 namespace pcl_surflet {
 namespace apps {
 namespace {
@@ -12,12 +14,23 @@ namespace {
 SurfletSet
 surfletsIn(const std::string& path, const InterpretOptions& o, std::vector<std::string>& notes)
 {
-  SurfaceFile file = readSurface(path, o.neighbours, o.threads);
+  SurfaceFile file = readSurface(path, o.normals, o.threads);
   if (file.mesh)
     throw DataError(path + ": is a mesh; give a cloud with normals");
   if (file.rejected > 0)
     notes.push_back(losses(path, file));
   return std::move(file.surflets);
+}
+
+/** \brief In other cells than it was trained for an object looks otherwise. */
+void
+noteLeaf(const ModelDatabase& database, const InterpretOptions& o, std::vector<std::string>& notes)
+{
+  constexpr double kAlike = 0.1;
+  const double trained = detail::trainedLeafOf(database);
+  if (o.leaf > 0 && trained > 0 && std::abs(o.leaf / trained - 1) > kAlike)
+    notes.push_back(o.database + ": the models were trained for cells of " + number(trained) +
+                    ", not of " + number(o.leaf) + "; see -leaf");
 }
 
 /** \brief Instances are numbered in the order of the detections, as the objects' files are. */
@@ -66,6 +79,7 @@ SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& 
     : o_(o)
 {
   interpreter_.setDatabase(database);
+  noteLeaf(database, o, notes);
   interpreter_.setMethod(o.method);
   interpreter_.setBackgroundTreatment(o.background);
   interpreter_.setLeafSize(o.leaf);

@@ -77,7 +77,15 @@ checkLabels(const TrainOptions& o)
                      " files are given; train them one by one");
   if (o.label.size() > HistogramModel::kMaxLabelBytes)
     throw UsageError("option -label: longer than 63 bytes");
+  if (o.label == HistogramModel::kReservedLabel)
+    throw UsageError("option -label: '" + o.label +
+                     "' is what programs say of things that no model "
+                     "fits; give another");
   std::map<std::string, std::string> seen;
+  for (const auto& file : o.files)
+    if (o.label.empty() && stemOf(file) == HistogramModel::kReservedLabel)
+      throw UsageError("'" + file + "' would be labelled '" + stemOf(file) +
+                       "', which programs say of things that no model fits; name it by -label");
   for (const auto& file : o.files)
     if (const auto [at, is_new] = seen.try_emplace(stemOf(file), file); !is_new)
       throw UsageError("'" + at->second + "' and '" + file + "' would both be labelled '" +
@@ -110,7 +118,7 @@ addOptions(CommandLine& line, TrainOptions& o)
             o.views);
   addSeed(line, o.seed);
   addThreads(line, o.threads);
-  addNeighbours(line, o.neighbours);
+  addMissingNormals(line, o.normals);
 }
 
 } // namespace

@@ -20,7 +20,8 @@ struct TrainOptions {
   ModelBank bank = ModelBank::none();
   double leaf = 0; ///< 0: not for scenes
   bool views = false;
-  std::uint64_t pairs = 10000000, seed = 1, threads = 0, neighbours = 0;
+  std::uint64_t pairs = 10000000, seed = 1, threads = 0;
+  MissingNormals normals;
   std::vector<std::string> files;
 };
 

@@ -95,7 +95,7 @@ fileOrError(const std::string& path, const TrainOptions& o)
     if (o.label.empty() && stemOf(path).size() > HistogramModel::kMaxLabelBytes)
       throw DataError("'" + path +
                       "': its name is longer than the 63 bytes of a label; give -label");
-    return {readSurface(path, o.neighbours, o.threads), ""};
+    return {readSurface(path, o.normals, o.threads), ""};
   }
   catch (const std::exception& error) {
     return {SurfaceFile(), error.what()};

@@ -83,7 +83,7 @@ struct BackgroundPlane {
   std::array<double, 3> normal{};
   double max_tilt = 0.26;        ///< from that direction, radians, in (0, pi / 2]
   double min_share = 0.1;        ///< of the cells left; a plane of fewer is not removed, in (0, 1]
-  unsigned max_iterations = 500; ///< of RANSAC, >= 1
+  unsigned max_iterations = 500; ///< of RANSAC, in [1, 2^31)
 };
 
 namespace detail {
@@ -100,7 +100,12 @@ struct InterpreterRequest {
   std::vector<BackgroundPlane> planes;
 };
 
-/** \brief Edge of the cells: \p leaf, or if 0 a fiftieth of the largest object. \throws
+/** \brief The edge of the cells that all objects were trained for (HistogramModel::leaf); 0 if they
+ * differ or one was not trained for cells. */
+PCL_SURFLET_API double trainedLeafOf(const ModelDatabase& database);
+
+/** \brief Edge of the cells: \p leaf, or if 0 trainedLeafOf(), or if that is 0 a fiftieth of the
+ * largest object. \throws
  * DatabaseError if there is no object \throws std::invalid_argument if it is not positive and
  * finite */
 PCL_SURFLET_API double leafOf(double leaf, const ModelDatabase& database);
@@ -145,6 +150,9 @@ PCL_SURFLET_API SurfletSet backgroundCells(const SurfletSet& background,
  * Of an accumulated detection: the same of its mean fit and margin, times the share of the runs
  * that found it. */
 PCL_SURFLET_API double confidenceOf(const Detection& detection, std::size_t min_cluster);
+
+/** \throws std::invalid_argument if an index is not below \p size */
+PCL_SURFLET_API void checkWithin(const pcl::Indices& indices, std::size_t size);
 
 /** \brief \p cells relative to those that a surface of \p area occupies, 1.27 area / leaf^2 on
  * average: the definition by which trainForScenes() sets HistogramModel::surface_area. Of models
@@ -261,7 +269,8 @@ public:
   }
   ///@}
 
-  /** \brief Edge of the cells in the cloud's unit; 0 (default): a fiftieth of the largest model. */
+  /** \brief Edge of the cells in the cloud's unit; 0 (default): that which all models were trained
+   * for, or if there is none a fiftieth of the largest model. */
   void
   setLeafSize(double leaf)
   {
@@ -341,7 +350,8 @@ public:
   void getLabeledCloud(pcl::PointCloud<pcl::PointXYZL>& output);
   void getLabeledCloud(pcl::PointCloud<pcl::PointXYZLNormal>& output); ///< the same with normals
 
-  /** \brief The same for detections that one has already. */
+  /** \brief The same for detections that one has already.
+   * \throws std::invalid_argument if they are of another cloud: an index is outside the input's */
   template <typename PointOutT>
   void labelCloud(const std::vector<SceneDetection>& detections,
                   pcl::PointCloud<PointOutT>& output) const;

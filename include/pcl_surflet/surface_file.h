@@ -27,16 +27,23 @@ struct SurfaceFile {
 
 /** \brief How loadSurface() reads. */
 struct SurfaceFileOptions {
-  /** \brief Neighbours for estimating missing normals (pcl::NormalEstimationOMP, oriented to the
-   * file's viewpoint); 0: a cloud without normals is an error. */
+  /** \brief Neighbours for estimating missing normals (pcl::NormalEstimationOMP); also where no
+   * point has a usable one. 0: organised clouds (3 by 3 and more) get theirs by
+   * surfletsFromDepth(), others without normals are an error. */
   int estimate_normals = 0;
+  /** \brief Where the sensor was, for such normals, in the coordinates of the points. Without it:
+   * the VIEWPOINT of a PCD, the origin otherwise. Some programs, ours that generate scans among
+   * them, write points relative to the sensor and its pose in a world as VIEWPOINT: then it is
+   * {0, 0, 0}. */
+  std::optional<std::array<double, 3>> sensor;
   unsigned threads = 0; ///< for normal estimation; 0: all
 };
 
 /** \brief Loads \p path by its ending (pcd, ply, obj, stl, off, any case).
  *
- * Files with faces give a mesh; PCD and PLY without faces give oriented points and need
- * normal_x, normal_y, normal_z unless options say to estimate them.
+ * Files with faces give a mesh; PCD and PLY without faces give oriented points, with their
+ * normal_x, normal_y, normal_z or with what \p options say. Estimated normals are turned to the
+ * sensor, see SurfaceFileOptions::sensor.
  * \throws SurfaceFileError if the file is missing, of an unknown kind, empty, damaged, or has
  * neither faces nor usable normals */
 PCL_SURFLET_API SurfaceFile loadSurface(const std::string& path,

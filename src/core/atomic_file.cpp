@@ -79,6 +79,9 @@ causeOfNotReplacing(const std::string& path, const std::string& content)
   if (exists && !fs::is_regular_file(status))
     return writeDirectly(target, content);
 
+  // Renaming asks the directory alone.
+  if (exists && ::faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0)
+    return std::strerror(errno);
   std::string temporary;
   const int descriptor = openBeside(target, temporary);
   if (descriptor < 0)

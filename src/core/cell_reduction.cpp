@@ -1,6 +1,7 @@
 #include "pcl_surflet/core/cell_reduction.h"
 
 #include "cell_sums.h"
+#include "number_text.h"
 #include "pcl_surflet/core/morton_key.h"
 #include "radix_sort.h"
 
@@ -53,8 +54,8 @@ makeGrid(const SurfletSet& set, double leaf)
     cells = std::max(cells, std::floor(high[a] * grid.inverse_leaf) - grid.lowest[a]);
   }
   if (!(cells < 0x1p53))
-    throw std::invalid_argument("reduceToCells: the leaf " + std::to_string(leaf) +
-                                " is too small for the extent of the set");
+    throw std::invalid_argument("pcl_surflet: cells of edge " + detail::numberText(leaf) +
+                                " are too small for so wide a cloud; set a larger leaf");
   while (std::ldexp(1.0, grid.bits) <= cells)
     ++grid.bits;
   return grid;
@@ -154,14 +155,15 @@ void
 checkOptions(const CellReductionOptions& options)
 {
   if (!(options.leaf > 0) || !std::isfinite(options.leaf) || !std::isfinite(1 / options.leaf))
-    throw std::invalid_argument("reduceToCells: the leaf must be positive and finite, it is " +
-                                std::to_string(options.leaf));
+    throw std::invalid_argument(
+        "pcl_surflet: the edge of cells must be positive and finite, it is " +
+        detail::numberText(options.leaf));
   if (!(options.min_mean_normal >= 0 && options.min_mean_normal <= 1))
-    throw std::invalid_argument("reduceToCells: min_mean_normal must be in [0, 1], it is " +
-                                std::to_string(options.min_mean_normal));
+    throw std::invalid_argument("pcl_surflet: min_mean_normal must be in [0, 1], it is " +
+                                detail::numberText(options.min_mean_normal));
   if (!(options.split_below >= 0 && options.split_below <= 1))
-    throw std::invalid_argument("reduceToCells: split_below must be in [0, 1], it is " +
-                                std::to_string(options.split_below));
+    throw std::invalid_argument("pcl_surflet: split_below must be in [0, 1], it is " +
+                                detail::numberText(options.split_below));
 }
 
 } // namespace

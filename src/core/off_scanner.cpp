@@ -1,13 +1,13 @@
 #include "off_scanner.h"
 
+#include "file_content.h"
+
 #include "pcl_surflet/core/mesh_file.h"
 
 #include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
-#include <system_error>
 
 namespace pcl_surflet {
 namespace detail {
@@ -54,12 +54,7 @@ forMessage(const std::string& token)
 
 OffScanner::OffScanner(const std::string& path) : path_(path)
 {
-  std::error_code error;
-  const auto status = std::filesystem::status(path, error);
-  if (!std::filesystem::exists(status))
-    throw MeshFileError(path + ": no such file; check the path");
-  if (std::filesystem::is_directory(status))
-    throw MeshFileError(path + ": is a directory; name a file in it");
+  detail::checkedFileSize(path);
   errno = 0;
   file_.open(path, std::ios::binary);
   if (!file_)

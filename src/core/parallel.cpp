@@ -4,7 +4,6 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
-#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -47,8 +46,9 @@ parallelFor(std::size_t items, unsigned threads,
     for (unsigned t = 1; t < threads; ++t)
       pool.emplace_back(run, t);
   }
-  catch (const std::system_error&) {
-    // The system gives no more threads; those there are do all the work.
+  catch (const std::exception&) {
+    // No more threads, or no memory for one: those there are do all the work. An exception from
+    // here would end the program, as they still run.
   }
   run(0);
   for (auto& thread : pool)

@@ -27,7 +27,7 @@ struct FieldSpec {
   bool optional = false;
 };
 
-const std::array<FieldSpec, 19> kFields = {{{"format_version", PCLPointField::UINT32, 1},
+const std::array<FieldSpec, 20> kFields = {{{"format_version", PCLPointField::UINT32, 1},
                                             {"label", PCLPointField::UINT8, kTextBytes},
                                             {"condition", PCLPointField::UINT8, kTextBytes},
                                             {"role", PCLPointField::UINT32, 1},
@@ -44,6 +44,7 @@ const std::array<FieldSpec, 19> kFields = {{{"format_version", PCLPointField::UI
                                             {"misfit", PCLPointField::FLOAT64, 1, true},
                                             {"misfit_limit", PCLPointField::FLOAT64, 1, true},
                                             {"area", PCLPointField::FLOAT64, 1, true},
+                                            {"leaf", PCLPointField::FLOAT64, 1, true},
                                             {"centre", PCLPointField::FLOAT64, kCentreTerms, true},
                                             {"histogram", PCLPointField::FLOAT32, 0}}};
 
@@ -53,7 +54,7 @@ struct Row {
   std::array<char, kTextBytes> label{}, condition{};
   std::array<std::uint32_t, 4> resolution{};
   double delta_max = 0, r_mean = 0, r_max = 0, r_min = 0, surface_area = 0, features = 0, tau = 0,
-         floor = 0, misfit = 0, misfit_limit = 0, area = 0;
+         floor = 0, misfit = 0, misfit_limit = 0, area = 0, leaf = 0;
   CentreWeights centre{};
   std::vector<float> histogram;
 
@@ -78,6 +79,7 @@ struct Row {
             &misfit,
             &misfit_limit,
             &area,
+            &leaf,
             centre.data(),
             histogram.data()};
   }
@@ -123,6 +125,7 @@ rowOf(const HistogramModel& model, std::size_t member, const PenaltyParameters& 
   row.r_max = model.r_max;
   row.r_min = model.r_min;
   row.surface_area = model.surface_area;
+  row.leaf = model.leaf;
   row.features = static_cast<double>(model.members[member].features);
   row.tau = penalty.tau;
   row.floor = penalty.floor;
@@ -239,9 +242,12 @@ modelOf(const Row& row, const TableReader& reader, const std::string& where)
   model.r_min = row.r_min;
   model.surface_area = row.surface_area;
   model.centre = row.centre;
+  model.leaf = row.leaf;
   model.members.push_back({textOf(row.condition, reader, where), row.histogram,
                            static_cast<std::uint64_t>(row.features), row.misfit, row.misfit_limit,
                            row.area});
+  if (const auto problem = model.problem(); !problem.empty())
+    reader.refuse(where + ": " + problem + "; train it again");
   return model;
 }
 
@@ -251,7 +257,8 @@ sameModel(const HistogramModel& a, const HistogramModel& b)
 {
   return a.label == b.label && a.role == b.role && a.resolution == b.resolution &&
          a.delta_max == b.delta_max && a.r_mean == b.r_mean && a.r_max == b.r_max &&
-         a.r_min == b.r_min && a.surface_area == b.surface_area && a.centre == b.centre;
+         a.r_min == b.r_min && a.surface_area == b.surface_area && a.centre == b.centre &&
+         a.leaf == b.leaf;
 }
 
 std::vector<HistogramModel>

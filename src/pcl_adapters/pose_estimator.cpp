@@ -50,8 +50,14 @@ loadPoseModels(const std::string& directory)
   std::sort(paths.begin(), paths.end());
   std::vector<PoseModel> models;
   models.reserve(paths.size());
-  for (const auto& path : paths)
+  for (const auto& path : paths) {
     models.push_back(loadPoseModel(path));
+    for (std::size_t k = 0; k + 1 < models.size(); ++k)
+      if (models[k].label() == models.back().label())
+        throw SurfaceFileError("'" + paths[k] + "' and '" + path +
+                               "' would both be the surface of '" + models[k].label() +
+                               "'; leave one of them there");
+  }
   return models;
 }
 

@@ -7,6 +7,7 @@
 #include <pcl/segmentation/sac_segmentation.h>
 
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace pcl_surflet {
@@ -39,7 +40,8 @@ check(const BackgroundPlane& plane)
           "max_tilt of a background plane must be in (0, pi / 2]");
   require(plane.min_share > 0 && plane.min_share <= 1,
           "min_share of a background plane must be in (0, 1]");
-  require(plane.max_iterations > 0, "max_iterations of a background plane must be positive");
+  require(plane.max_iterations > 0 && plane.max_iterations <= std::numeric_limits<int>::max(),
+          "max_iterations of a background plane must be positive, below 2^31");
 }
 
 /** \brief The plane a x + b y + c z + d = 0, (a, b, c) of unit length. */

@@ -141,6 +141,8 @@ whyNothing(const SceneDiagnostics& d, const SizeRange& sizes)
     return "all points are background";
   if (d.cells == 0)
     return "the normals cancel in every cell: set a smaller leaf";
+  if (d.background_points > 0 && d.extent < sizes.smallest)
+    return "all but " + std::to_string(d.points - d.background_points) + " points are background";
   if (muchTooSmall(d, sizes))
     return text("the scene measures %g, the smallest model %g: are both in the same unit?",
                 d.extent, sizes.smallest);
@@ -228,6 +230,18 @@ interpretCells(const SurfletSet& cells, const ModelDatabase& database,
 } // namespace
 
 double
+detail::trainedLeafOf(const ModelDatabase& database)
+{
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t i = 0; i < database.size(); ++i)
+    if (database[i].role == ModelRole::Object) {
+      least = std::min(least, database[i].leaf);
+      most = std::max(most, database[i].leaf);
+    }
+  return least == most ? most : 0;
+}
+
+double
 detail::leafOf(double leaf, const ModelDatabase& database)
 {
   const double largest = objectSizes(database).largest;
@@ -235,7 +249,8 @@ detail::leafOf(double leaf, const ModelDatabase& database)
     throw DatabaseError("the database has no object to find; call setDatabase()");
   if (!(leaf >= 0) || !std::isfinite(leaf))
     throw std::invalid_argument("pcl_surflet: the leaf size must be positive and finite, or 0");
-  return leaf > 0 ? leaf : largest / kCellsPerDiameter;
+  const double trained = trainedLeafOf(database);
+  return leaf > 0 ? leaf : (trained > 0 ? trained : largest / kCellsPerDiameter);
 }
 
 double
@@ -245,12 +260,22 @@ detail::confidenceOf(const Detection& detection, std::size_t min_cluster)
   const auto n = static_cast<double>(detection.cells.size());
   if (n == 0)
     return 0;
-  if (detection.fit > 0 && detection.margin == 0) // nothing to compare with
+  if (detection.fit > 0 && std::isnan(detection.margin)) // nothing to compare with
     return logistic(31 * detection.fit - 26.3);
   if (detection.fit > 0)
     return logistic(19.7 * detection.fit + 12.5 * detection.margin - 18.4);
   constexpr double kIndependent = 10; // neighbouring pairs tell the same: far fewer than features
   return logistic(kIndependent * detection.score) * n / (n + static_cast<double>(min_cluster));
+}
+
+void
+detail::checkWithin(const pcl::Indices& indices, std::size_t size)
+{
+  for (const auto i : indices)
+    if (i < 0 || static_cast<std::size_t>(i) >= size)
+      throw std::invalid_argument("pcl_surflet: a detection has the point " + std::to_string(i) +
+                                  ", the input cloud " + std::to_string(size) +
+                                  "; give the cloud that it was found in");
 }
 
 double

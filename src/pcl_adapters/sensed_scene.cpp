@@ -54,6 +54,30 @@ pointsOf(const DepthScan& scan, std::vector<std::size_t>& pixels)
   return points;
 }
 
+/** \brief The normal of the plane through neighbours, towards the sensor at the origin, as
+ * pcl::NormalEstimation has it; NaN if they are fewer than three or lie on a line. Seen from its
+ * edge a surface shows lines of pixels that are far apart, and of one line PCL 1.15 gives any of
+ * its normals, where PCL 1.13 gave none. */
+pcl::Normal
+normalOf(const Points& points, const pcl::PointXYZ& at, const pcl::Indices& neighbours)
+{
+  constexpr float kOnALine = 1e-6F; // of the variances across and along it
+  Eigen::Matrix3f covariance;
+  Eigen::Vector4f centroid, plane;
+  Eigen::Vector3f variances;
+  pcl::Normal out(NAN, NAN, NAN);
+  if (neighbours.size() < 3)
+    return out;
+  pcl::computeMeanAndCovarianceMatrix(points, neighbours, covariance, centroid);
+  pcl::eigen33(covariance, variances);
+  if (!(variances[1] > kOnALine * variances[2]))
+    return out;
+  pcl::solvePlaneParameters(covariance, centroid, plane, out.curvature);
+  pcl::flipNormalTowardsViewpoint(at, 0, 0, 0, plane);
+  out.getNormalVector3fMap() = plane.head<3>();
+  return out;
+}
+
 /** \brief Is it certain which side of the surface is seen? Of a surface seen from its edge a small
  * error of the normal would turn it around. */
 bool
@@ -78,19 +102,19 @@ withNormals(DepthScan scan, double radius)
   const auto points = pointsOf(out.scan, pixels);
   if (points->empty())
     return out;
-  pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-  estimation.setInputCloud(points);
-  estimation.setSearchMethod(pcl::make_shared<OctreeRegionSearch<pcl::PointXYZ>>());
-  estimation.setRadiusSearch(radius);
-  estimation.setViewPoint(0, 0, 0);
-  pcl::PointCloud<pcl::Normal> normals;
-  estimation.compute(normals);
+  OctreeRegionSearch<pcl::PointXYZ> search;
+  search.setInputCloud(points);
+  pcl::Indices neighbours;
+  std::vector<float> squared;
   for (std::size_t k = 0; k < pixels.size(); ++k) {
-    if (!facesSurely((*points)[k], normals[k]))
+    const pcl::PointXYZ& p = (*points)[k];
+    search.radiusSearch(p, radius, neighbours, squared);
+    const pcl::Normal n = normalOf(*points, p, neighbours);
+    if (!facesSurely(p, n))
       continue;
-    out.nx[pixels[k]] = normals[k].normal_x;
-    out.ny[pixels[k]] = normals[k].normal_y;
-    out.nz[pixels[k]] = normals[k].normal_z;
+    out.nx[pixels[k]] = n.normal_x;
+    out.ny[pixels[k]] = n.normal_y;
+    out.nz[pixels[k]] = n.normal_z;
   }
   return out;
 }

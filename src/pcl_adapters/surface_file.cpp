@@ -40,7 +40,9 @@ ofPoints(const std::string& path, ConvertedSurflets converted)
     refuse(path,
            "none of its " + std::to_string(converted.rejected) +
                " points is finite and has a usable normal",
-           "check the coordinates and normals");
+           "check the coordinates and normals, or have normals estimated from k neighbours (option "
+           "-k of "
+           "the apps)");
   SurfaceFile file;
   file.surflets = std::move(converted.surflets);
   file.rejected = converted.rejected;
@@ -118,8 +120,11 @@ coordinates(const detail::PcdContent& raw, const Columns& xyz)
  */
 SurfaceFile
 withEstimatedNormals(const std::string& path, const pcl::PointCloud<pcl::PointXYZ>& points,
-                     const Eigen::Vector3f& sensor, const SurfaceFileOptions& options)
+                     const Eigen::Vector3f& viewpoint, const SurfaceFileOptions& options)
 {
+  const Eigen::Vector3f sensor =
+      options.sensor ? Eigen::Map<const Eigen::Vector3d>(options.sensor->data()).cast<float>()
+                     : viewpoint;
   if (options.estimate_normals > 0)
     return ofPoints(path,
                     surfletsFromPoints(points, sensor, options.estimate_normals, options.threads));
@@ -144,6 +149,8 @@ loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
         {valueAt(raw.cloud, i, *xyz[0]), valueAt(raw.cloud, i, *xyz[1]),
          valueAt(raw.cloud, i, *xyz[2]), valueAt(raw.cloud, i, *n[0]), valueAt(raw.cloud, i, *n[1]),
          valueAt(raw.cloud, i, *n[2])});
+  if (converted.surflets.empty() && options.estimate_normals > 0) // fields that nobody filled
+    return withEstimatedNormals(path, coordinates(raw, xyz), raw.origin.head<3>(), options);
   return ofPoints(path, std::move(converted));
 }
 
@@ -154,19 +161,19 @@ loadPlySurface(const std::string& path, const SurfaceFileOptions& options)
   if (!content.mesh.triangles.empty())
     return ofMesh(path, std::move(content.mesh));
   const auto& vertices = content.mesh.vertices;
-  if (content.normals.empty()) {
+  ConvertedSurflets converted;
+  for (std::size_t i = 0; i < content.normals.size(); ++i) {
+    const auto& p = vertices[i];
+    const auto& n = content.normals[i];
+    converted.rejected += !converted.surflets.appendChecked({p[0], p[1], p[2], n[0], n[1], n[2]});
+  }
+  const bool none_usable = converted.surflets.empty() && options.estimate_normals > 0;
+  if (content.normals.empty() || none_usable) {
     pcl::PointCloud<pcl::PointXYZ> points;
-    points.is_dense = false;
     for (const auto& p : vertices)
       points.push_back({p[0], p[1], p[2]});
     points.is_dense = false;
     return withEstimatedNormals(path, points, Eigen::Vector3f::Zero(), options);
-  }
-  ConvertedSurflets converted;
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const auto& p = vertices[i];
-    const auto& n = content.normals[i];
-    converted.rejected += !converted.surflets.appendChecked({p[0], p[1], p[2], n[0], n[1], n[2]});
   }
   return ofPoints(path, std::move(converted));
 }

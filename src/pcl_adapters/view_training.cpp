@@ -1,5 +1,6 @@
 #include "pcl_surflet/view_training.h"
 
+#include "core/number_text.h"
 #include "pcl_surflet/core/geometry.h"
 #include "pcl_surflet/recognition/scene_training.h"
 
@@ -118,12 +119,12 @@ sensingFor(const SceneItem& item, double leaf)
 {
   const TriangleMesh mesh = item.mesh();
   if (const auto problem = mesh.problem(); !problem.empty())
-    throw std::invalid_argument("sensingFor: '" + item.label + "': " + problem);
+    throw std::invalid_argument("pcl_surflet: '" + item.label + "': " + problem);
   const double diameter = diagonalOf(mesh), pixels = kPixelsPerCell * kWidth * diameter / leaf;
   if (!(leaf > 0) || !std::isfinite(leaf) || !(diameter > 0) || !(pixels <= kMostPixels))
-    throw std::invalid_argument("sensingFor: cells of edge " + std::to_string(leaf) +
-                                " are not for an object of diameter " + std::to_string(diameter) +
-                                "; is the unit the same?");
+    throw std::invalid_argument("pcl_surflet: cells of edge " + detail::numberText(leaf) +
+                                " are not for an object of diameter " +
+                                detail::numberText(diameter) + "; is the unit the same?");
   SceneSensing s;
   s.sensor.columns = s.sensor.rows = static_cast<std::size_t>(std::max(16.0, std::ceil(pixels)));
   s.sensor.opening = 2 * std::atan(kWidth / 2 / kDistance) * 180 / M_PI;

@@ -9,7 +9,6 @@ namespace {
 constexpr double kSumTolerance = 1e-3;
 
 /** \brief What programs answer where no model fits. */
-constexpr const char* kReservedLabel = "unknown";
 
 std::string
 textProblem(const std::string& text, const char* what, bool may_be_empty)
@@ -27,9 +26,15 @@ textProblem(const std::string& text, const char* what, bool may_be_empty)
 std::string
 lengthProblem(const HistogramModel& m)
 {
-  for (const double v : {m.delta_max, m.r_mean, m.r_max, m.r_min, m.surface_area})
+  const std::pair<const char*, double> values[] = {{"delta_max", m.delta_max},
+                                                   {"r_mean", m.r_mean},
+                                                   {"r_max", m.r_max},
+                                                   {"r_min", m.r_min},
+                                                   {"surface_area", m.surface_area},
+                                                   {"leaf", m.leaf}};
+  for (const auto& [name, v] : values)
     if (!std::isfinite(v) || v < 0)
-      return "a length is negative or not finite";
+      return std::string(name) + " is negative or not finite";
   if (!(m.delta_max > 0))
     return "delta_max is not positive";
   // The radii come from single-precision points: allow for their rounding.
@@ -55,11 +60,11 @@ memberProblem(const ModelMember& member, const Resolution& resolution)
   double sum = 0;
   for (const float v : member.histogram) {
     if (!std::isfinite(v) || v < 0)
-      return "a bin is negative or not finite";
+      return "a bin of its histogram is negative or not finite";
     sum += v;
   }
   if (std::abs(sum - 1) > kSumTolerance)
-    return "the bins sum to " + std::to_string(sum) + " instead of 1";
+    return "the bins of its histogram sum to " + std::to_string(sum) + " instead of 1";
   return {};
 }
 

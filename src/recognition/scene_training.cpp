@@ -135,6 +135,7 @@ trainForScenes(const HistogramModelTrainer& trainer, const std::string& label,
     cells = settleAll(model, label, all, threads);
     member.histogram = meanHistogram(all, model, seed, threads, member.features);
   }
+  model.leaf = leaf;
   model.surface_area = member.area = interpretation::areaOfCells(cells, leaf);
   return model;
 }

@@ -107,6 +107,47 @@ TEST_F(Interpret, RefusesPosesWithoutModels)
                     1, {"-viewpoints"}));
 }
 
+TEST_F(Interpret, RefusesTwoSurfacesOfOneName)
+{
+  std::filesystem::create_directory(path("meshes"));
+  for (const std::string name : {"torus.off", "torus.ply"})
+    ASSERT_EQ(run("generate_shape", {"torus", path("meshes/" + name), "-points", "500"}).code, 0);
+  EXPECT_TRUE(
+      ended(run("interpret", {"-database", path("db.pcd"), "-pose", path("meshes"), path("s.pcd")}),
+            2, {"torus.off", "torus.ply", "leave one"}));
+}
+
+TEST_F(Interpret, SaysThatTheModelsAreForOtherCells)
+{
+  ASSERT_EQ(run("train", {"-database", path("cells.pcd"), "-bins", "7,7,7,7", "-leaf", "0.008",
+                          path("bottle.pcd"), path("torus.pcd")})
+                .code,
+            0);
+  const auto noted = [&](const std::vector<std::string>& leaf) {
+    std::vector<std::string> arguments = {"-database", path("cells.pcd"), "-background", "exclude",
+                                          "-empty",    path("e.pcd"),     path("s.pcd")};
+    arguments.insert(arguments.begin(), leaf.begin(), leaf.end());
+    return run("interpret", arguments);
+  };
+  EXPECT_TRUE(ended(noted({"-leaf", "0.012"}), 0, {"cells of 0.008", "not of 0.012", "-leaf"}));
+  const AppRun given = noted({"-leaf", "0.008"}), by_default = noted({});
+  EXPECT_EQ(given.err, "");
+  EXPECT_EQ(by_default.out, given.out) << "what they were trained for";
+}
+
+TEST_F(Interpret, RefusesNamesThatCannotBeKept)
+{
+  std::filesystem::create_directory(path("other"));
+  std::filesystem::copy(path("s.pcd"), path("other/s.pcd"));
+  EXPECT_TRUE(ended(run("interpret", {"-database", path("db.pcd"), "-objects_dir", path("o"),
+                                      path("s.pcd"), path("other/s.pcd")}),
+                    1, {path("s.pcd"), path("other/s.pcd"), "-objects_dir"}));
+  EXPECT_TRUE(ended(
+      run("interpret", {"-database", path("db.pcd"), "-picture", path("p.jpg"), path("s.pcd")}), 1,
+      {"p.jpg", ".png"}));
+  EXPECT_FALSE(std::filesystem::exists(path("o")));
+}
+
 TEST_F(Interpret, PosesJudgeNames)
 {
   // A goblet takes the place of the torus: nothing else has the name, so its pose must refute it.

@@ -42,7 +42,7 @@ TEST_F(RoundTrip, TrainInfoClassify)
   makeDatabase();
   const Table table = info();
   ASSERT_EQ(table.size(), 4u);
-  ASSERT_EQ(table[0].size(), 13u);
+  ASSERT_EQ(table[0].size(), 14u);
   const std::vector<std::string> begin(table[1].begin(), table[1].begin() + 5);
   EXPECT_EQ(begin, (std::vector<std::string>{"ball", "object", "0", "complete", "5,5,5,5"}));
   EXPECT_EQ(table[2][0], "die");

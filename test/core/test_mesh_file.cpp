@@ -183,6 +183,39 @@ TEST_F(MeshFile, CountsForeignLineEndsOnce)
   EXPECT_CONTAINS(failure(text), ":5: ");
 }
 
+TEST_F(MeshFile, APipeIsRefusedWithoutWaiting)
+{
+  ASSERT_EQ(::mkfifo(path("pipe.off").c_str(), 0600), 0);
+  try {
+    loadOff(path("pipe.off"));
+    FAIL();
+  }
+  catch (const MeshFileError& e) {
+    EXPECT_CONTAINS(e.what(), "no regular file");
+  }
+}
+
+TEST_F(MeshFile, AFileThatMustNotBeWrittenStays)
+{
+  const TriangleMesh mesh = meshOfShape(Shape::box(1, 1, 1), 0.5);
+  test::writeFile(path("m.off"), "kept");
+  std::filesystem::permissions(directory_, std::filesystem::perms::all);
+  std::filesystem::permissions(path("m.off"), std::filesystem::perms::owner_read |
+                                                  std::filesystem::perms::others_read);
+  const uid_t me = ::geteuid();
+  ASSERT_EQ(::seteuid(me == 0 ? 65534 : me), 0); // root may write everywhere: be nobody
+  std::string message;
+  try {
+    saveOff(mesh, path("m.off"));
+  }
+  catch (const MeshFileError& e) {
+    message = e.what();
+  }
+  ASSERT_EQ(::seteuid(me), 0);
+  EXPECT_CONTAINS(message, "ermission");
+  EXPECT_EQ(test::readFile(path("m.off")), "kept");
+}
+
 TEST_F(MeshFile, RefusesWhatIsNotThere)
 {
   try {
@@ -190,7 +223,7 @@ TEST_F(MeshFile, RefusesWhatIsNotThere)
     FAIL();
   }
   catch (const MeshFileError& e) {
-    EXPECT_CONTAINS(e.what(), path("absent.off") + ": no such file");
+    EXPECT_CONTAINS(e.what(), path("absent.off") + ": there is no such file");
   }
   try {
     loadOff(directory_.string());

@@ -32,6 +32,7 @@ protected:
     cup.members.push_back(cup.members[0]);
     cup.members[1].condition = "noise 1 %";
     cup.members[1].area = 0.0123;
+    cup.leaf = 0.0125;
     cup.centre = {0.5, -1.25, 2, 0, 0, 0, -0.1};
     database_.add(cup);
     trainer.setRole(ModelRole::Background);
@@ -115,6 +116,7 @@ TEST_F(DatabaseFile, RoundTripKeepsEverything)
     EXPECT_EQ(a.r_min, b.r_min);
     EXPECT_EQ(a.surface_area, b.surface_area);
     EXPECT_EQ(a.centre, b.centre);
+    EXPECT_EQ(a.leaf, b.leaf);
     ASSERT_EQ(a.members.size(), b.members.size());
     for (std::size_t k = 0; k < a.members.size(); ++k) {
       EXPECT_EQ(a.members[k].condition, b.members[k].condition);
@@ -149,8 +151,8 @@ TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
   expectHas(errorWith("resolution", std::uint32_t{4000000000u}), "resolution");
   expectHas(errorWith("resolution", std::uint32_t{7}, 0), "bins");
   for (const auto* field : {"delta_max", "r_mean", "r_max", "r_min", "surface_area"}) {
-    expectHas(errorWith(field, nan, 0), "not finite");
-    expectHas(errorWith(field, -1.0, 0), "negative");
+    expectHas(errorWith(field, nan, 0), std::string("entry 1: model 'ball': ") + field);
+    expectHas(errorWith(field, -1.0, 0), std::string(field) + " is negative");
   }
   expectHas(errorWith("delta_max", 0.0, 0), "delta_max");
   expectHas(errorWith("r_max", 1e6, 0), "radii");
@@ -160,11 +162,13 @@ TEST_F(DatabaseFile, EveryDamagedFieldIsNamed)
   expectHas(errorWith("misfit_limit", -1.0), "misfit");
   expectHas(errorWith("area", nan), "area");
   expectHas(errorWith("area", -1.0), "area");
+  expectHas(errorWith("leaf", -1.0, 0), "leaf is negative");
+  expectHas(errorWith("leaf", 0.5, 2), "member");
   expectHas(errorWith("centre", nan, 0, 6), "centre is not finite");
   expectHas(errorWith("centre", 7.0, 2, 1), "member");
   expectHas(errorWith("tau", 0.25), "tau or floor");
   expectHas(errorWith("histogram", std::nanf(""), 1, 3), "not finite");
-  expectHas(errorWith("histogram", -0.5f, 1, 3), "negative");
+  expectHas(errorWith("histogram", -0.5f, 1, 3), "entry 2: model");
   expectHas(errorWith("histogram", 0.5f, 1, 3), "sum");
   expectHas(errorWith("label", char{0}, 0), "label");
   expectHas(errorWith("label", char{7}, 0), "control");
@@ -189,7 +193,7 @@ TEST_F(DatabaseFile, PenaltyIsChecked)
 TEST_F(DatabaseFile, MissingOrForeignFieldsAreRefused)
 {
   const auto newer = [](const std::string& name) {
-    return name.rfind("misfit", 0) == 0 || name == "centre" || name == "area";
+    return name.rfind("misfit", 0) == 0 || name == "centre" || name == "area" || name == "leaf";
   };
   for (int k = 0; k < 19; ++k) {
     std::string name;

@@ -48,6 +48,28 @@ TEST(SceneInterpreter, CoverageIsOfTheAreaThatTrainingForScenesFinds)
     EXPECT_NEAR(d.coverage, 1, 0.1) << d.label;
 }
 
+TEST(SceneInterpreter, CellsAreThoseThatAllModelsWereTrainedFor)
+{
+  HistogramModelTrainer trainer;
+  HistogramModel small = trainForScenes(trainer, "small", sampleShape(Shape::sphere(0.1), 20000, 1),
+                                        0.01),
+                 large = trainForScenes(trainer, "large", sampleShape(Shape::sphere(0.2), 20000, 1),
+                                        0.01);
+  EXPECT_EQ(small.leaf, 0.01);
+  const auto leafOf = [](const HistogramModel& a, const HistogramModel& b, double given) {
+    ModelDatabase database;
+    database.add(a);
+    database.add(b);
+    return detail::leafOf(given, database);
+  };
+  EXPECT_EQ(leafOf(small, large, 0), 0.01);
+  EXPECT_EQ(leafOf(small, large, 0.02), 0.02) << "who asks for others gets them";
+  small.leaf = 0;
+  EXPECT_NEAR(leafOf(small, large, 0), 0.4 / 50, 1e-4) << "one was trained for none";
+  small.leaf = 0.02;
+  EXPECT_NEAR(leafOf(small, large, 0), 0.4 / 50, 1e-4) << "they differ";
+}
+
 TEST(SceneInterpreter, ConfidenceGrowsWithFitAndMargin)
 {
   Detection d;
@@ -64,9 +86,13 @@ TEST(SceneInterpreter, ConfidenceGrowsWithFitAndMargin)
   best.fit = 0.95;
   best.margin = 0.3;
   EXPECT_GT(detail::confidenceOf(best, 30), 0.8);
-  alone.margin = 0;
+  alone.margin = std::nan("");
   alone.fit = 0.95;
   EXPECT_GT(detail::confidenceOf(alone, 30), 0.9) << "a database of one model has no rivals";
+  Detection twin = alone;
+  twin.margin = 0;
+  EXPECT_NEAR(detail::confidenceOf(twin, 30), 1 / (1 + std::exp(18.4 - 19.7 * 0.95)), 1e-12)
+      << "another model fits as well, which is not to have none";
   alone.fit = 0.7;
   EXPECT_LT(detail::confidenceOf(alone, 30), 0.1);
   EXPECT_EQ(detail::confidenceOf(Detection(), 30), 0);

@@ -241,6 +241,17 @@ TEST(SceneInterpreter, LabelsCarryNormals)
     EXPECT_EQ(again[i].label, labelled[i].label);
 }
 
+TEST(SceneInterpreter, LabelsOfAnotherCloudAreRefused)
+{
+  const auto interpreter = ready();
+  pcl::PointCloud<pcl::PointXYZL> labelled;
+  for (const pcl::index_t wrong : {-1, static_cast<pcl::index_t>(cloud()->size())}) {
+    SceneDetection d;
+    d.indices = {0, wrong};
+    EXPECT_THROW(interpreter.labelCloud({d}, labelled), std::invalid_argument) << wrong;
+  }
+}
+
 TEST(SceneInterpreter, ProgressGrowsAndCancels)
 {
   auto interpreter = ready();

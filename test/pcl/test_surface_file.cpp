@@ -203,6 +203,39 @@ TEST_F(SurfaceFiles, NormalsAreEstimatedTowardsTheFilesViewpoint)
   }
 }
 
+TEST_F(SurfaceFiles, TheSensorsPlaceCanBeGiven)
+{
+  pcl::PointCloud<pcl::PointXYZ> plane;
+  for (int i = 0; i < 400; ++i)
+    plane.push_back({static_cast<float>(i % 20) / 20, static_cast<float>(i / 20) / 20, 2});
+  plane.sensor_origin_ = Eigen::Vector4f(0, 0, 5, 0); // its pose in a world, not where it was here
+  pcl::PCDWriter().writeBinary(path("plane.pcd"), plane);
+  SurfaceFileOptions options;
+  options.estimate_normals = 8;
+  EXPECT_NEAR(loadSurface(path("plane.pcd"), options).surflets.nz[210], 1, 1e-5);
+  options.sensor = {0, 0, 0};
+  EXPECT_NEAR(loadSurface(path("plane.pcd"), options).surflets.nz[210], -1, 1e-5);
+}
+
+TEST_F(SurfaceFiles, NormalsThatNobodyFilledAreEstimated)
+{
+  pcl::PointCloud<pcl::PointNormal> plane;
+  for (int i = 0; i < 400; ++i)
+    plane.push_back({static_cast<float>(i % 20) / 20, static_cast<float>(i / 20) / 20, 2, 0, 0, 0});
+  pcl::PCDWriter().writeBinary(path("plane.pcd"), plane);
+  const std::string ply = plyHeader("ascii", "element vertex 4\n" + kPlyPoint + kPlyNormal) +
+                          "0 0 2 0 0 0\n1 0 2 0 0 0\n1 1 2 0 0 0\n0 1 2 0 0 0\n";
+  test::writeFile(path("plane.ply"), ply);
+  for (const std::string name : {"plane.pcd", "plane.ply"}) {
+    EXPECT_NE(errorOf(path(name)).find("-k"), std::string::npos) << name;
+    SurfaceFileOptions options;
+    options.estimate_normals = 4;
+    const SurfaceFile file = loadSurface(path(name), options);
+    ASSERT_GE(file.surflets.size(), 4u) << name;
+    EXPECT_NEAR(file.surflets.nz[1], -1, 1e-5) << name;
+  }
+}
+
 TEST_F(SurfaceFiles, OrganisedDepthNeedsNoNormals)
 {
   pcl::PointCloud<pcl::PointXYZ> depth(40, 30);

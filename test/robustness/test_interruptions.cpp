@@ -1,6 +1,7 @@
 // What ends in the middle: programs that are killed while they write, callbacks that throw, and
 // locales that write numbers otherwise.
 #include "../full_disk.h"
+#include "../recognition/failing_allocation.h"
 #include "../test_files.h"
 
 #include "core/atomic_file.h"
@@ -140,6 +141,24 @@ TEST_F(Interruptions, WhatAWorkerThrowsReachesTheCaller)
     EXPECT_THROW(parallelFor(1000, threads, work), std::domain_error) << threads;
     EXPECT_LT(done, 1000);
     EXPECT_THROW(parallelFor(100, threads, [](auto, auto) { throw 7; }), int) << "all at once";
+  }
+}
+
+TEST_F(Interruptions, WithoutMemoryForThreadsThoseThereAreDoAllTheWork)
+{
+  bool ended = false;
+  for (long left = 0; left < 20 && !ended; ++left) {
+    std::atomic<std::size_t> sum{0};
+    allocations_left = left;
+    try {
+      parallelFor(100, 4, [&](std::size_t item, unsigned) { sum += item; });
+      ended = left > 12;
+      allocations_left = -1;
+      EXPECT_EQ(sum, 4950u) << left;
+    }
+    catch (const std::bad_alloc&) { // before the first thread
+      allocations_left = -1;
+    }
   }
 }
 

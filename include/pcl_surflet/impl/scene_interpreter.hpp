@@ -148,6 +148,8 @@ pcl_surflet::SceneInterpreter<PointT, PointNT>::labelCloud(
   if (!this->input_)
     return;
   const auto& input = *this->input_;
+  for (const auto& d : detections)
+    detail::checkWithin(d.indices, input.size());
   output.resize(input.size());
   output.header = input.header;
   output.is_dense = input.is_dense;

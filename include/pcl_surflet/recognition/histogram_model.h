@@ -35,6 +35,8 @@ struct ModelMember {
  * different conditions; its response to a query is that of its best member. */
 struct PCL_SURFLET_API HistogramModel {
   static constexpr std::size_t kMaxLabelBytes = 63; ///< so that a database file can hold it
+  /** \brief No model's label: what classifiers say of things that no model fits. */
+  static constexpr const char* kReservedLabel = "unknown";
 
   std::string label; ///< 1 to 63 bytes without control characters; unique in a database
   ModelRole role = ModelRole::Object; ///< to be found, or to be ignored
@@ -44,6 +46,7 @@ struct PCL_SURFLET_API HistogramModel {
   double r_max = 0;                   ///< largest distance of a surflet to the centroid
   double r_min = 0;                   ///< smallest distance of a surflet to the centroid
   double surface_area = 0;            ///< 0 if unknown (trained from points)
+  double leaf = 0; ///< edge of the cells that it was trained for, see trainForScenes(); 0: none
   /** \brief From cells of a part of the object to its middle, see ObjectCentre. */
   CentreWeights centre{};
   std::vector<ModelMember> members; ///< at least one; the first is the complete object's

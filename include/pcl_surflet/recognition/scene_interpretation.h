@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -141,8 +142,8 @@ struct Detection {
   std::size_t seeds = 0; ///< merged cluster seeds, n_C; 0 by explanation
   double fit = 0; ///< by explanation: intersection with the model's histogram, in [0, 1]; else 0
   /** \brief By explanation: how much better it fits than the best other model fits the same cells,
-   * in [-1, 1]; 0 without any other model. */
-  double margin = 0;
+   * in [-1, 1]; 0 if they are the same. NaN without any other model, and by the dissertation. */
+  double margin = std::numeric_limits<double>::quiet_NaN();
   /** \brief By explanation: the member of the model that fits best. With members for views
    * (addView()) it tells from where the object was seen. */
   std::size_t member = 0;

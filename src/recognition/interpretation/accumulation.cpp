@@ -118,6 +118,7 @@ count(std::size_t runs, Hypothesis& h)
   Detection& d = h.result;
   d.model = h.model();
   d.label = h.votes.front().detection->label;
+  d.margin = 0;
   std::vector<char> seen(runs, 0);
   for (const auto& v : h.votes) {
     seen[v.run] = 1;

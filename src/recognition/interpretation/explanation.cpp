@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 namespace pcl_surflet {
@@ -85,7 +86,7 @@ marginOf(const SceneData& scene, const Explanation& e, std::uint64_t seed)
 {
   const auto& models = scene.models;
   if (models.objects < 2)
-    return 0;
+    return std::numeric_limits<double>::quiet_NaN();
   const auto fit = [&](std::size_t k) {
     return fitOf(scene, models.all[k], e.cells, kMarginPairs, seed ^ kMarginStream).share;
   };

@@ -182,8 +182,7 @@ OnlineInterpretation::State::noteOf(const OnlineDetection& d, const Indices& own
   const auto cells_seen = static_cast<double>(own.size());
   note.coverage = area > 0 ? interpretation::areaOfCells(cells_seen, parameters.leaf) / area
                            : std::numeric_limits<double>::quiet_NaN();
-  note.is_in_doubt =
-      note.coverage < parameters.coverage || (database.size() > 1 && d.margin < parameters.margin);
+  note.is_in_doubt = note.coverage < parameters.coverage || d.margin < parameters.margin;
   return note;
 }
 
