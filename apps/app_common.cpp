@@ -1,15 +1,19 @@
 #include "app_common.h"
 
 #include "core/atomic_file.h"
+#include "core/file_content.h"
 #include "core/number_text.h"
+#include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/database_file.h"
 
 #include <pcl/console/print.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 #include <filesystem>
 #include <iostream>
 
@@ -175,6 +179,20 @@ stemOf(const std::string& path)
   return std::filesystem::path(path).stem().string();
 }
 
+void
+requirePcdName(const std::string& path)
+{
+  if (std::filesystem::path(path).has_extension() && !hasEnding(path, ".pcd"))
+    throw UsageError("'" + path + "' does not end in .pcd, which is what is written");
+}
+
+void
+requirePngName(const std::string& path)
+{
+  if (!path.empty() && !hasEnding(path, ".png"))
+    throw UsageError("option -picture: '" + path + "' does not end in .png");
+}
+
 bool
 hasEnding(const std::string& path, const std::string& ending)
 {
@@ -199,6 +217,39 @@ readDatabase(const std::string& path)
   catch (const DatabaseFileError& error) {
     throw DataError(about(path, error.what()) + "; give a database made by pcl_surflet_train");
   }
+}
+
+std::string
+readTextFile(const std::string& path)
+{
+  constexpr std::uint64_t kLongest = 1 << 20;
+  try {
+    if (detail::checkedFileSize(path) > kLongest)
+      throw DataError(path + ": is longer than a mebibyte; give a text");
+    return detail::fileContent(path);
+  }
+  catch (const MeshFileError& error) {
+    throw DataError(error.what());
+  }
+}
+
+void
+checkOutput(const std::string& path)
+{
+  const auto status = std::filesystem::status(path);
+  const bool is_device = std::filesystem::exists(status) && std::filesystem::is_other(status);
+  if (path.empty() || is_device)
+    return;
+  refuseOverwriting(path);
+  const auto directory = std::filesystem::absolute(path).parent_path();
+  std::string cause;
+  if (std::filesystem::is_directory(status))
+    cause = "it is a directory";
+  else if (::access(directory.c_str(), W_OK) != 0)
+    cause = std::strerror(errno);
+  if (!cause.empty())
+    throw DataError("cannot write '" + path + "': " + cause +
+                    "; check its directory and the permissions");
 }
 
 void

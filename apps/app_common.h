@@ -135,12 +135,26 @@ std::string stemOf(const std::string& path);
 /** \brief Does \p path end in \p ending (".png"), in capitals or not? */
 bool hasEnding(const std::string& path, const std::string& ending);
 
+/** \brief For programs that write PCD only. \throws UsageError if \p path has another ending */
+void requirePcdName(const std::string& path);
+
+/** \brief For pictures. \throws UsageError if \p path is given and does not end in .png */
+void requirePngName(const std::string& path);
+
 /** \brief Refuses to write to \p path if several words of the command line are names of that file,
  * so that it is read as well as written, or written twice.
  *
  * Names are the same file if the system says so: links and other spellings count.
  * \throws DataError that names the file, cause and remedy */
 void refuseOverwriting(const std::string& path);
+
+/** \brief Content of a text that people write: a regular file of 1 to 2^20 bytes.
+ * \throws DataError */
+std::string readTextFile(const std::string& path);
+
+/** \brief What can be said before the work that gives \p path its content; nothing if it is empty.
+ * \throws DataError as writeFile() does if its directory cannot be written, or it is one */
+void checkOutput(const std::string& path);
 
 /** \brief Replaces \p path by \p content as a whole. \throws DataError, also as
  * refuseOverwriting() does */

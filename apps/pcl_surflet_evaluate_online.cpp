@@ -217,7 +217,7 @@ addOptions(CommandLine& line, Options& o)
   line.count("-take", "N", "takes so many things away after the pass and passes again", o.taken, 0,
              1000000);
   line.flag("-csv", "prints a line a scan, in place of the scores", o.csv);
-  addSensor(line, o.table.sensing);
+  addPassingSensor(line, o.table.sensing);
   line.count("-seed", "S", "seed of the first scene, the next one counts on, default 1001", o.seed,
              0, 1ULL << 62);
   line.count("-threads", "N", "default 1, which is timed by what it computes; 0: all", o.threads, 0,

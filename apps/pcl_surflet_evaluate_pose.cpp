@@ -223,6 +223,17 @@ judge(const KnownObject& object, const TrueCluster& cluster, const PlacedItem& i
                  e.rotation_deviation, e.reason.c_str());
 }
 
+/** \brief Percent and its interval; a dash if there were no \p trials. */
+std::string
+textOf(const Rate& rate, std::size_t trials)
+{
+  char text[64];
+  if (trials == 0)
+    return std::string(20, ' ') + "-";
+  std::snprintf(text, sizeof text, "%5.1f [%5.1f, %5.1f]", rate.percent, rate.low, rate.high);
+  return text;
+}
+
 void
 printRow(const std::string& name, const PoseCounts& c)
 {
@@ -230,12 +241,13 @@ printRow(const std::string& name, const PoseCounts& c)
   double sum = 0;
   for (const double s : c.seconds)
     sum += s;
-  std::printf("%-18s %7zu %9zu %6zu %6zu   %5.1f [%5.1f, %5.1f]   %5.1f [%5.1f, %5.1f]   %6.4f "
-              "%7.2f %7.2f\n",
-              name.c_str(), c.present, c.segmented, c.posed, c.right, present.percent, present.low,
-              present.high, posed.percent, posed.low, posed.high, medianOf(c.errors),
-              c.seconds.empty() ? 0.0 : 1e3 * sum / static_cast<double>(c.seconds.size()),
-              1e3 * medianOf(c.seconds));
+  std::printf("%-18s %7zu %9zu %6zu %6zu   %s   %s   ", name.c_str(), c.present, c.segmented,
+              c.posed, c.right, textOf(present, c.present).c_str(), textOf(posed, c.posed).c_str());
+  if (c.errors.empty() || c.seconds.empty())
+    std::printf("%6s %7s %7s\n", "-", "-", "-");
+  else
+    std::printf("%6.4f %7.2f %7.2f\n", medianOf(c.errors),
+                1e3 * sum / static_cast<double>(c.seconds.size()), 1e3 * medianOf(c.seconds));
 }
 
 void

@@ -64,6 +64,7 @@ feature(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(2, 2);
+  requirePcdName(line.files()[1]);
   writeFile(line.files()[1], asPcd(describe(line.files()[0], o)));
   note("wrote '" + line.files()[1] + "'");
   return kOk;

@@ -9,6 +9,7 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <set>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -143,7 +144,22 @@ requireConsistent(const CommandLine& line)
   for (const char* option : {"-scans", "-alone"})
     if (line.given(option) && !sensed)
       throw UsageError(std::string("option ") + option + ": give -views, too");
+  requireViews(line);
   refuseNoiseOfViews(line);
+}
+
+/** \brief Before the first file is written. */
+void
+checkOutputs(const Outputs& out)
+{
+  std::set<std::filesystem::path> files;
+  for (const auto& path : {out.scene, out.poses, out.empty}) {
+    checkOutput(path);
+    if (!path.empty() && !files.insert(std::filesystem::weakly_canonical(path)).second)
+      throw DataError("not written: '" + path + "' is named twice; give another name");
+  }
+  for (const auto& path : {out.scene, out.empty})
+    requirePcdName(path);
 }
 
 int
@@ -168,6 +184,7 @@ generate(int argc, char** argv)
   line.require("-out");
   line.requireFiles(1, 1000);
   requireConsistent(line);
+  checkOutputs(job.out);
   job.sensing.threads = static_cast<unsigned>(threads);
   job.objects = itemsOf(line.files());
   job.clutter = clutterOf(line, contents);

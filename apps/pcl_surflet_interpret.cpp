@@ -50,6 +50,8 @@ interpret(int argc, char** argv, Ranks& ranks)
   std::optional<SceneWorker> worker;
   std::vector<std::string> notes;
   ranks.together([&] {
+    for (const auto& path : {o.out, o.picture})
+      checkOutput(path);
     o.pose.load();
     worker.emplace(readDatabase(o.database), o, notes);
   });

@@ -115,6 +115,7 @@ run(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(2, 2);
+  requirePcdName(line.files()[1]);
   line.require("-leaf");
   o.in = line.files()[0];
   o.out = line.files()[1];

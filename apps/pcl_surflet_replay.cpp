@@ -33,7 +33,7 @@ readScan(const std::string& path)
 {
   detail::PcdContent content;
   if (const auto problem = detail::readPcd(path, content); !problem.empty())
-    throw DataError(path + ": " + problem);
+    throw DataError(path + ": " + problem + "; give a scan in PCD");
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {
     bool is_there = false;
     for (const auto& field : content.cloud.fields)
@@ -157,7 +157,7 @@ replay(const std::vector<std::string>& files, const Options& o)
       print(path, scan, online, spent.count(), o.csv);
     }
     catch (const std::exception& error) {
-      complain(about(path, error.what()));
+      complain(std::string(kProgram) + ": " + about(path, error.what()));
       code = kBadData;
     }
   if (!o.out.empty())
@@ -199,6 +199,8 @@ run(int argc, char** argv)
     return kOk;
   line.require("-database");
   line.requireFiles(1, 1000000);
+  requirePcdName(o.out);
+  checkOutput(o.out);
   return replay(line.files(), o);
 }
 

@@ -5,10 +5,10 @@
 #include "pcl_surflet/model_search.h"
 #include "pcl_surflet/recognition/retrieval_figures.h"
 
-#include <fstream>
 #include <iostream>
 #include <limits>
 #include <map>
+#include <sstream>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -44,6 +44,8 @@ readOptions(int argc, char** argv, Options& o)
   if (!line.parse(argc, argv))
     return false;
   line.require("-database");
+  if (o.exhaustive && line.given("-shortlist"))
+    throw UsageError("option -shortlist: does not go with -exhaustive, which compares with all");
   line.requireFiles(o.classes.empty() ? 1 : 0,
                     o.classes.empty() ? std::numeric_limits<std::size_t>::max() : 0);
   o.files = line.files();
@@ -83,9 +85,7 @@ searchFile(const Options& o, const ModelSearch& search, const std::string& path)
 std::map<std::string, std::string>
 readClasses(const std::string& path)
 {
-  std::ifstream file(path);
-  if (!file)
-    throw DataError("cannot read the classes '" + path + "': check the path and the permissions");
+  std::istringstream file(readTextFile(path));
   std::map<std::string, std::string> classes;
   std::string line;
   for (std::size_t number = 1; std::getline(file, line); ++number) {

@@ -8,12 +8,9 @@
 
 #include "pcl_surflet/database_file.h"
 
-#include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <functional>
 
-#include <unistd.h>
 
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
@@ -22,20 +19,10 @@ namespace {
 
 constexpr const char* kProgram = "pcl_surflet_train";
 
-/** \brief Training may take long: better to know before it whether the result can be kept. */
-void
-checkDirectory(const std::string& database)
-{
-  const auto directory = std::filesystem::absolute(database).parent_path();
-  if (::access(directory.c_str(), W_OK) != 0)
-    throw DataError("cannot write the database '" + database + "': " + std::strerror(errno) +
-                    "; check its directory and the permissions");
-}
-
 ModelDatabase
 openDatabase(const TrainOptions& o)
 {
-  checkDirectory(o.database);
+  checkOutput(o.database);
   lockUntilExit(o.database); // two trainings at once would lose models
   if (!std::filesystem::exists(std::filesystem::symlink_status(o.database)))
     return {};

@@ -61,6 +61,7 @@ view(int argc, char** argv)
   if (!line.parse(argc, argv))
     return kOk;
   line.requireFiles(1, 1);
+  requirePngName(o.picture);
   o.look.width = static_cast<int>(o.width);
   o.look.height = static_cast<int>(o.height);
   const LabelledScene scene = readLabelledScene(line.files()[0]);

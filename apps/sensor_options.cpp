@@ -7,7 +7,7 @@ namespace apps {
 namespace {
 
 void
-addPlaces(CommandLine& line, ViewOptions& v)
+addViews(CommandLine& line, ViewOptions& v)
 {
   addChoice<ViewSet>(line, "-views",
                      "what a virtual depth camera sees from there, in place of complete surfaces "
@@ -19,6 +19,14 @@ addPlaces(CommandLine& line, ViewOptions& v)
                       {"ring24", ViewSet::Ring24},
                       {"all24", ViewSet::All24},
                       {"pass", ViewSet::Pass}});
+  line.real("-path", "L", "pass: length of the way, default 2", v.path, 0, 1e6);
+  line.option("-stops", "N", "pass: views in all, default 24",
+              [&v](const std::string& text) { v.stops = parseCount("-stops", text, 2, 10000); });
+}
+
+void
+addPlaces(CommandLine& line, ViewOptions& v)
+{
   line.real("-distance", "D", "of the sensors from the middle of the scene, default 1.4",
             v.distance, 1e-6, 1e6);
   line.real("-elevation", "A", "of the sensors above the horizon, degrees, default 45", v.elevation,
@@ -27,15 +35,19 @@ addPlaces(CommandLine& line, ViewOptions& v)
             89);
   line.real("-azimuth", "A", "of the first sensor about the vertical, degrees, default 0",
             v.azimuth, -360, 360);
-  line.real("-path", "L", "pass: length of the way, default 2", v.path, 0, 1e6);
-  line.option("-stops", "N", "pass: views in all, default 24",
-              [&v](const std::string& text) { v.stops = parseCount("-stops", text, 2, 10000); });
 }
 
 } // namespace
 
 void
 addSensor(CommandLine& line, SceneSensing& o)
+{
+  addViews(line, o.views);
+  addPassingSensor(line, o);
+}
+
+void
+addPassingSensor(CommandLine& line, SceneSensing& o)
 {
   DepthSensor& s = o.sensor;
   addPlaces(line, o.views);
@@ -60,6 +72,19 @@ addSensor(CommandLine& line, SceneSensing& o)
             s.baseline, -1e6, 1e6);
   line.real("-normal_radius", "R", "neighbourhood of normals, default 0.007", o.normal_radius, 1e-9,
             1e6);
+}
+
+void
+requireViews(const CommandLine& line)
+{
+  if (line.given("-views"))
+    return;
+  for (const char* option :
+       {"-path", "-stops", "-distance", "-elevation", "-elevation2", "-azimuth", "-pixels",
+        "-opening", "-sensor_noise", "-noise_power", "-quantum", "-flying", "-edge", "-grazing",
+        "-baseline", "-normal_radius"})
+    if (line.given(option))
+      throw UsageError(std::string("option ") + option + ": give -views, too");
 }
 
 void

@@ -13,6 +13,13 @@ namespace apps {
  * there is a sensor at all. */
 void addSensor(CommandLine& line, SceneSensing& target);
 
+/** \brief The same for a sensor whose way the program knows. */
+void addPassingSensor(CommandLine& line, SceneSensing& target);
+
+/** \brief For programs that take complete surfaces without a sensor. \throws UsageError if an
+ * option of the sensor is given without -views */
+void requireViews(const CommandLine& line);
+
 /** \brief For programs with -noise, which moves the points of complete surfaces: sensors have
  * -sensor_noise. \throws UsageError if -noise and -views are given together */
 void refuseNoiseOfViews(const CommandLine& line);

@@ -120,6 +120,7 @@ settle(EvaluateOptions& o, const CommandLine& line, const Contents& contents, co
   settleContents(line, contents, things.objects.size(), things.clutter.size(), o.recogniser.scene);
   if (line.given("-views"))
     o.recogniser.sensing = contents.sensing;
+  requireViews(line);
   refuseNoiseOfViews(line);
   if (line.given("-presence") && (line.given("-present") || o.scaling != Scaling::None))
     throw UsageError("option -presence: goes neither with -present nor with -scaling");

@@ -33,7 +33,9 @@ addOptions(CommandLine& line, InterpretOptions& o)
   line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
             o.min_confidence, 0, 1);
   line.text("-out", "OUT.pcd",
-            "labelled points: 0 none, else number in the database, from 1; one scene only", o.out);
+            "the points with usable normals, in their order, labelled: 0 none, else number in the "
+            "database, from 1; one scene only",
+            o.out);
   line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
             o.objects_dir);
   line.text("-picture", "OUT.png",
@@ -41,7 +43,10 @@ addOptions(CommandLine& line, InterpretOptions& o)
             "points; one scene only",
             o.picture);
   o.pose.addOptions(line);
-  line.flag("-csv", "prints CSV", o.csv);
+  line.flag("-csv",
+            "prints a table with the columns file,label,points,x,y,z,score,fit,confidence,coverage "
+            "and those of poses; x,y,z is where the middle of the whole object is guessed",
+            o.csv);
   line.flag("-verbose", "prints what each step did for each model to stderr", o.verbose);
   addMissingNormals(line, o.normals);
   addSeed(line, o.seed);
@@ -70,13 +75,6 @@ checkStems(const std::vector<std::string>& files)
                        "' would have the same names by option -objects_dir; give them one by one");
 }
 
-void
-checkPicture(const std::string& path)
-{
-  if (!path.empty() && !hasEnding(path, ".png"))
-    throw UsageError("option -picture: '" + path + "' does not end in .png");
-}
-
 } // namespace
 
 bool
@@ -98,7 +96,8 @@ readInterpretOptions(const std::string& program, int argc, char** argv, Interpre
   if (o.pose.verify && o.method == Method::Dissertation)
     throw UsageError("option -verify is for -method explanation");
   o.files = line.files();
-  checkPicture(o.picture);
+  requirePngName(o.picture);
+  requirePcdName(o.out);
   if (!o.objects_dir.empty())
     checkStems(o.files);
   return true;

@@ -2,10 +2,8 @@
 
 #include "pcl_surflet/recognition/histogram_model.h"
 
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 
 namespace pcl_surflet {
 namespace apps {
@@ -55,13 +53,12 @@ bankNamed(const std::string& name)
     return ModelBank::standard();
   if (name == "none")
     return ModelBank::none();
-  std::ifstream file(name);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
-    throw DataError("cannot read the bank '" + name +
-                    "': give default, none, or the path of a text file that is not empty");
   try {
-    return ModelBank::parse(text.str());
+    return ModelBank::parse(readTextFile(name));
+  }
+  catch (const DataError& error) {
+    throw DataError("the bank " + std::string(error.what()) +
+                    "; or give one of our own, default or none");
   }
   catch (const ModelBankError& error) {
     throw DataError("'" + name + "': " + error.what());

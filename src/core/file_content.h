@@ -1,6 +1,9 @@
 /** \file
- * Reads whole files and splits text into lines; internal, not installed. */
+ * Reads whole files and splits text into lines; not installed, shared with
+ * the apps. */
 #pragma once
+
+#include "pcl_surflet/export.h"
 
 #include <cstdint>
 #include <string>
@@ -12,11 +15,11 @@ namespace detail {
 
 /** \brief Size in bytes of \p path. \throws MeshFileError unless it is a regular, non-empty file
  * (a pipe or a device could go on for ever) */
-std::uint64_t checkedFileSize(const std::string& path);
+PCL_SURFLET_API std::uint64_t checkedFileSize(const std::string& path);
 
 /** \brief Content of \p path. \throws MeshFileError as checkedFileSize(), or if it cannot be read
  */
-std::string fileContent(const std::string& path);
+PCL_SURFLET_API std::string fileContent(const std::string& path);
 
 /** \brief Lines of a text, split at blanks, with the number of the line for messages.
  *

@@ -170,6 +170,33 @@ TEST_F(BadData, UnwritablePlaces)
   EXPECT_TRUE(ended(run("train", {"-database", directory, path("ball.pcd")}), 2, {directory}));
 }
 
+TEST_F(BadData, TextsThatAreNoFilesAreRefusedWithoutWaiting)
+{
+  makeDatabase();
+  ASSERT_EQ(::mkfifo(path("pipe").c_str(), 0600), 0);
+  fs::create_directory(path("d"));
+  const std::vector<std::pair<std::string, std::string>> wrong = {{path("pipe"), "no regular file"},
+                                                                  {path("d"), "directory"},
+                                                                  {"/dev/zero", "no regular file"},
+                                                                  {path("none"), "no such file"}};
+  for (const auto& [text, cause] : wrong) {
+    EXPECT_TRUE(ended(run("train", {"-database", path("new.pcd"), "-bank", text, path("ball.pcd")}),
+                      2, {text, cause}));
+    EXPECT_TRUE(
+        ended(run("search", {"-database", path("db.pcd"), "-classes", text}), 2, {text, cause}));
+  }
+}
+
+TEST_F(BadData, WhatCannotBeWrittenIsKnownBeforeTheWork)
+{
+  const auto generated = [&](const std::string& option, const std::string& file) {
+    return run("generate", {"-out", path("s.pcd"), "-density", "5000", option, file, "cube"});
+  };
+  EXPECT_TRUE(ended(generated("-empty", path("s.pcd")), 2, {path("s.pcd"), "named twice"}));
+  EXPECT_TRUE(ended(generated("-poses", path("none/p.csv")), 2, {path("none/p.csv"), "directory"}));
+  EXPECT_FALSE(fs::exists(path("s.pcd"))) << "nothing is left half done";
+}
+
 TEST_F(BadData, ReadOnlyDirectory)
 {
   if (::geteuid() == 0)

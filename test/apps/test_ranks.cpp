@@ -243,7 +243,7 @@ TEST_F(RanksTest, ErrorsAreSaidOnce)
   const std::string nowhere = path("no/such/directory/db.pcd");
   r = runOn(2, "train", {"-database", nowhere, path("ball.pcd")});
   EXPECT_EQ(r.code, 2);
-  EXPECT_EQ(times(r.err, "cannot write the database '" + nowhere), 1u) << r.err;
+  EXPECT_EQ(times(r.err, "cannot write '" + nowhere), 1u) << r.err;
   r = runOn(2, "interpret", {"-database", path("none.pcd"), path("ball.pcd")});
   EXPECT_EQ(r.code, 2);
   EXPECT_EQ(times(r.err, "give a database made by"), 1u) << r.err;

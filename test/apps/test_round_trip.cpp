@@ -330,7 +330,7 @@ TEST_F(RoundTrip, UnusableBanksAreTold)
   EXPECT_TRUE(ended(train({"-bank", path("bank.txt"), path("ball.pcd")}), 2,
                     {path("bank.txt"), "line 2", "'much'"}));
   EXPECT_TRUE(ended(train({"-bank", path("no.txt"), path("ball.pcd")}), 2,
-                    {path("no.txt"), "default, none"}));
+                    {path("no.txt"), "default or none"}));
   EXPECT_TRUE(ended(classify({"-unknown", "auto", path("ball.pcd")}), 2,
                     {path("db.pcd"), "-bank default"}));
 }

@@ -181,24 +181,35 @@ TEST(Usage, ValuesOutOfRangeAreNamed)
 
 TEST(Usage, WrongNamesAreNamed)
 {
-  expectWrong({{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
-               {"evaluate", {"-method", "guess", "cup"}, "explanation"},
-               {"evaluate", {"-method", "dissertation,", "cup"}, "classic_esf"},
-               {"evaluate", {"-treatment", "pray", "cup"}, "exclude"},
-               {"evaluate", {"-scaling", "time", "cup"}, "models"},
-               {"evaluate", {"-scaling", "models", "-times", "2", "cup"}, "-extra"},
-               {"evaluate", {"-times", "1,,2", "cup"}, "-times"},
-               {"evaluate", {"-critical", "-1", "cup"}, "-critical"},
-               {"evaluate", {"-present", "2", "cup"}, "-present"},
-               {"generate", {"-out", "s.pcd", "-background", "sea", "cup"}, "bowl"},
-               {"generate", {"-out", "s.pcd", "-posture", "proud", "cup"}, "leaning"},
-               {"generate", {"-out", "s.pcd", "cup:2"}, "'cup'"},
-               {"generate", {"-out", "s.pcd", "a.off:2:w"}, "a.off:2:w"},
-               {"generate", {"-out", "s.pcd", "a.off:two"}, "DIAMETER"},
-               {"generate", {"-out", "s.pcd", "-present", "2", "cup"}, "-present"},
-               {"generate", {"-out", "s.pcd", "-unknown", "1", "cup"}, "-unknown"},
-               {"generate_shape", {"dodecahedron", "a.pcd"}, "wine_glass"},
-               {"generate_shape", {"sphere", "a.stl"}, ".off"}});
+  expectWrong(
+      {{"classify", {"-database", "d.pcd", "a.pcd", "-criterion", "best"}, "likelihood"},
+       {"evaluate", {"-method", "guess", "cup"}, "explanation"},
+       {"evaluate", {"-method", "dissertation,", "cup"}, "classic_esf"},
+       {"evaluate", {"-treatment", "pray", "cup"}, "exclude"},
+       {"evaluate", {"-scaling", "time", "cup"}, "models"},
+       {"evaluate", {"-scaling", "models", "-times", "2", "cup"}, "-extra"},
+       {"evaluate", {"-times", "1,,2", "cup"}, "-times"},
+       {"evaluate", {"-critical", "-1", "cup"}, "-critical"},
+       {"evaluate", {"-present", "2", "cup"}, "-present"},
+       {"generate", {"-out", "s.pcd", "-background", "sea", "cup"}, "bowl"},
+       {"generate", {"-out", "s.pcd", "-posture", "proud", "cup"}, "leaning"},
+       {"generate", {"-out", "s.pcd", "cup:2"}, "'cup'"},
+       {"generate", {"-out", "s.pcd", "a.off:2:w"}, "a.off:2:w"},
+       {"generate", {"-out", "s.pcd", "a.off:two"}, "DIAMETER"},
+       {"generate", {"-out", "s.pcd", "-present", "2", "cup"}, "-present"},
+       {"generate", {"-out", "s.pcd", "-unknown", "1", "cup"}, "-unknown"},
+       {"generate", {"-out", "s.pcd", "-pixels", "320x240", "cup"}, "-views"},
+       {"generate", {"-out", "s.txt", "cup"}, ".pcd"},
+       {"evaluate", {"-grazing", "80", "cup"}, "-views"},
+       {"evaluate_online", {"-path", "9", "cup"}, "-path"},
+       {"search", {"-database", "d.pcd", "-exhaustive", "-shortlist", "3", "a.pcd"}, "-exhaustive"},
+       {"view", {"-picture", "x.jpg", "s.pcd"}, ".png"},
+       {"feature", {"a.pcd", "b.txt"}, ".pcd"},
+       {"reduce", {"-leaf", "1", "a.pcd", "b.ply"}, ".pcd"},
+       {"replay", {"-database", "d.pcd", "-out", "x.ply", "a.pcd"}, ".pcd"},
+       {"train", {"-database", "d.pcd", "unknown.pcd"}, "-label"},
+       {"generate_shape", {"dodecahedron", "a.pcd"}, "wine_glass"},
+       {"generate_shape", {"sphere", "a.stl"}, ".off"}});
 }
 
 TEST(Usage, WrongResolutionsAreNamed)

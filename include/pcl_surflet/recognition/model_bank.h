@@ -55,7 +55,7 @@ struct PCL_SURFLET_API ModelBank {
   std::vector<BankCondition> conditions; ///< of the members after the first
 
   /** \brief The default: noise of 1, 2 and 4 %, three visible shares, both together, and views; 29
-   * members in all with the clean one, 72 kB a model at resolution 5,5,5,5. */
+   * members in all with the clean one, 81 kB a model in a file at resolution 5,5,5,5. */
   static ModelBank standard();
   /** \brief No conditions: models of one member. */
   static ModelBank none();
