@@ -9,7 +9,8 @@
 #   doc       the reference, without a warning; links of the pages; pages of the manual
 #   packages  Debian packages, and lintian over them
 #   address   tests under the address and undefined-behaviour sanitizers (debug build)
-#   thread    tests under the thread sanitizer
+#   races     the quicker of the test programs that start threads, under the thread sanitizer
+#   thread    all of them
 #   memory    readers, files, space and features under valgrind: no error, no leak of ours. It knows no
 #             AVX-512, so this is also a run of the AVX2 kernels
 set -uo pipefail
@@ -37,25 +38,39 @@ doc() { scripts/doc.sh; }
 packages() { scripts/package.sh; }
 
 # The library and its tests without the apps, which it would take ten minutes to build.
-sanitized() {
-  cmake --preset "$1" -DPCL_SURFLET_BUILD_APPS=OFF >/dev/null && cmake --build --preset "$1" >"$log/build" ||
+address() {
+  cmake --preset asan -DPCL_SURFLET_BUILD_APPS=OFF >/dev/null && cmake --build --preset asan >"$log/build" ||
     { tail -n 40 "$log/build"; return 1; }
-  "${@:2}" ctest --preset "$1" -j"$jobs" -LE slow
+  ctest --preset asan -j"$jobs" -LE slow
 }
-address() { sanitized asan; }
+
+# Builds test programs of a preset and runs each under a command; shows the output of those that fail.
+each() {
+  local preset=$1 under=$2 programs=("${@:3}")
+  cmake --preset "$preset" -DPCL_SURFLET_BUILD_APPS="$([ "$preset" = ci ] && echo ON || echo OFF)" >/dev/null &&
+    cmake --build --preset "$preset" --target "${programs[@]/#/test_}" >"$log/build" ||
+    { tail -n 40 "$log/build"; return 1; }
+  printf '%s\n' "${programs[@]}" | xargs -P"$jobs" -I{} sh -c '$1 "build/$2/bin/test_$4" --gtest_brief=1 >"$3/$4" 2>&1 &&
+    echo "passed $4" || { cat "$3/$4"; echo "FAILED $4"; exit 1; }' - "$under" "$preset" "$log" {}
+}
+
+quick=(pair_counting training model_search cell_reduction octree_region_search depth_sensor estimation
+  floating_seeds accumulation model_bank_trainer classifier)
+long=(linear_octree dynamic_space explanation interpretation scene_interpreter online_interpretation
+  online_scene_interpreter sensed_scene pose pose_estimator hostile_scenes hostile_models interruptions)
+
 # Without random addresses: the thread sanitizer's memory map collides with some of them.
-thread() { sanitized tsan setarch "$(uname -m)" -R; }
+raced() {
+  TSAN_OPTIONS="suppressions=$PWD/test/tsan.supp" each tsan "setarch $(uname -m) -R" "$@"
+}
+races() { raced "${quick[@]}"; }
+thread() { raced "${long[@]}" "${quick[@]}"; }
 
 memory() {
-  local programs=(surflet_pair geometry mesh_file triangle_mesh shapes surface_file database_file model_database
-    model_search model_bank classifier object_centre training pair_counting cell_reduction octree_region_search
-    mean_surflet_grid dynamic_space estimation pose_estimator compat)
-  cmake --preset ci >/dev/null && cmake --build --preset ci --target "${programs[@]/#/test_}" >"$log/build" ||
-    { tail -n 40 "$log/build"; return 1; }
-  printf '%s\n' "${programs[@]}" |
-    xargs -P"$jobs" -I{} sh -c 'valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite \
-      --show-leak-kinds=definite "build/ci/bin/test_$1" --gtest_brief=1 >"$2/memory_$1" 2>&1 ||
-      { cat "$2/memory_$1"; exit 1; }' - {} "$log"
+  each ci "valgrind -q --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite --show-leak-kinds=definite" \
+    surflet_pair geometry mesh_file triangle_mesh shapes surface_file database_file model_database \
+    model_search model_bank classifier object_centre training pair_counting cell_reduction \
+    octree_region_search mean_surflet_grid dynamic_space estimation pose_estimator compat
 }
 
 scripts/install_dependencies.sh --with-checks || exit 1
@@ -63,7 +78,7 @@ failed=()
 times=()
 for stage in "${stages[@]}"; do
   case $stage in
-    format | tidy | headers | doc | packages | address | thread | memory) ;;
+    format | tidy | headers | doc | packages | address | races | thread | memory) ;;
     *) echo "Unknown stage $stage; see the first lines of $0" >&2; exit 1 ;;
   esac
   echo "=== $stage"

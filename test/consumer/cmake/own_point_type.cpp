@@ -19,6 +19,13 @@ struct StampedPoint {
   double stamp;
   float x, y, z;
   float normal_x, normal_y, normal_z;
+
+  /** \brief PCL 1.15 asks for it, wherever features are computed. */
+  Eigen::Map<const Eigen::Vector3f>
+  getVector3fMap() const
+  {
+    return Eigen::Map<const Eigen::Vector3f>(&x);
+  }
 };
 POINT_CLOUD_REGISTER_POINT_STRUCT(StampedPoint,
                                   (double, stamp, stamp)(float, x, x)(float, y, y)(float, z, z)(
