@@ -11,7 +11,6 @@
 #include <filesystem>
 #include <functional>
 
-
 using namespace pcl_surflet;
 using namespace pcl_surflet::apps;
 

@@ -79,9 +79,10 @@ VirtualDisplay::VirtualDisplay()
     if (displayAnswers())
       return;
   }
-  throw DataError("cannot draw: there is no display (DISPLAY) and the X server without screen, "
-                  "Xvfb, does not start; install it (apt-get install xvfb libgl1-mesa-dri), or make "
-                  "room in /tmp if it is there");
+  throw DataError(
+      "cannot draw: there is no display (DISPLAY) and the X server without screen, "
+      "Xvfb, does not start; install it (apt-get install xvfb libgl1-mesa-dri), or make "
+      "room in /tmp if it is there");
 }
 
 VirtualDisplay::~VirtualDisplay()
