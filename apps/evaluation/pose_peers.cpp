@@ -161,6 +161,7 @@ private:
     });
     order.resize(std::min(order.size(), parameters_.proposals));
     std::vector<RigidMotion> motions;
+    motions.reserve(order.size());
     for (const auto k : order)
       motions.push_back(motionOf(transforms[k]));
     return motions;

@@ -76,8 +76,9 @@ void
 addCell(std::ostringstream& script, const std::string& label, std::size_t i, std::size_t rows)
 {
   const double width = 1.0 / kColumns, height = 1.0 / static_cast<double>(rows);
+  const std::size_t row = i / kColumns;
   const double x = width * static_cast<double>(i % kColumns);
-  const double y = 1 - height * static_cast<double>(i / kColumns + 1);
+  const double y = 1 - height * static_cast<double>(row + 1);
   script << "set size " << width << "," << 0.74 * height << "\nset origin " << x << ","
          << y + 0.26 * height << "\nset title '" << label << "' noenhanced offset 0,-0.7\n"
          << "set size ratio -1\nset autoscale\n"

@@ -17,7 +17,7 @@ std::vector<SurfletSet>
 unturnedSamples(const ExperimentObject& object, std::uint64_t seed)
 {
   std::vector<SurfletSet> samples;
-  for (unsigned i = 0; i < kTrainingSamples; ++i)
+  for (unsigned i = 0; i < kTrainingRounds; ++i)
     samples.push_back(withEstimatedNormals(sampleIsoMesh(object.mesh, kSamplingSize, seed + i),
                                            Condition().normal_radius * object.spacing, 1)
                           .surflets);

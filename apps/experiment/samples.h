@@ -12,12 +12,12 @@ namespace pcl_surflet {
 namespace apps {
 
 /** \brief Samples of an object for training [Wahl 2007, Sec. 3.6.1]. */
-constexpr unsigned kTrainingSamples = 5;
+constexpr unsigned kTrainingRounds = 5;
 
 /** \brief Seed of the training samples of object number \p object; no query has it. */
 std::uint64_t trainingSeed(std::uint64_t seed, std::size_t object);
 
-/** \brief kTrainingSamples even samples with estimated normals, in the frame of the mesh. */
+/** \brief kTrainingRounds even samples with estimated normals, in the frame of the mesh. */
 std::vector<SurfletSet> unturnedSamples(const ExperimentObject& object, std::uint64_t seed);
 
 } // namespace apps

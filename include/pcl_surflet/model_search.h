@@ -52,12 +52,16 @@ public:
 
   /** \brief Members compared by likelihood, default 100. \throws std::invalid_argument if 0 */
   void setShortlist(std::size_t members);
+  std::size_t getShortlist() const; ///< members compared by likelihood
   /** \brief Leaves of the trees looked at, default 1000: more find the true neighbours more often.
    * \throws std::invalid_argument if 0 */
   void setChecks(int checks);
+  int getChecks() const; ///< leaves looked at
   /** \brief Pairs drawn of a query, 0 (default): HistogramClassifier::defaultFeatures(). */
   void setNumberOfFeatures(std::uint64_t features);
-  void setSeed(std::uint64_t seed); ///< of the pairs drawn of a query, default 1
+  std::uint64_t getNumberOfFeatures() const; ///< as set, 0: the default
+  void setSeed(std::uint64_t seed);          ///< of the pairs drawn of a query, default 1
+  std::uint64_t getSeed() const;             ///< of the pairs drawn of a query
 
   /** \brief The \p k best models, best first; fewer if the shortlist holds no more. Empty for a
    * query without features. \param query surflets as HistogramClassifier::classify() takes them

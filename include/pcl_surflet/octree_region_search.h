@@ -70,7 +70,8 @@ public:
   explicit OctreeRegionSearch(Backend backend = Linear, bool sorted = false);
 
   /** \brief Chooses the representation; points already there are taken over from the input cloud,
-   * those added by addPoint() are lost. */
+   * those added by addPoint() are lost. Input that cannot be taken over leaves the search empty, as
+   * setInputCloud() does. */
   void setBackend(Backend backend);
   Backend getBackend() const; ///< the representation in use
 
@@ -84,10 +85,12 @@ public:
   /** \brief Depth d_max of a cube of the dynamic backends, 8 by default; takes effect like
    * setCellSize(). \throws pcl::PCLException outside [0, 63] */
   void setDepth(int depth);
+  int getDepth() const; ///< as set
 
   /** \brief Threads of batch queries and of searches across cubes, 1 by default, 0 = all of the
    * machine. Results do not depend on it. */
   void setNumberOfThreads(unsigned threads);
+  unsigned getNumberOfThreads() const; ///< 0: all
 
   /** \brief Builds the representation of \p cloud, or of its points \p indices. */
   SetInputCloudResult setInputCloud(const PointCloudConstPtr& cloud,

@@ -212,11 +212,23 @@ public:
   {
     database_ = database;
   }
+  /** \brief What is known. */
+  const ModelDatabase&
+  getDatabase() const
+  {
+    return database_;
+  }
   /** \brief Default Explanation. */
   void
   setMethod(Method method)
   {
     request_.method = method;
+  }
+  /** \brief The method in use. */
+  Method
+  getMethod() const
+  {
+    return request_.method;
   }
 
   /** \name Background
@@ -228,6 +240,12 @@ public:
   setBackgroundTreatment(BackgroundTreatment treatment)
   {
     request_.parameters.steps.background = treatment;
+  }
+  /** \brief The treatment in use. */
+  BackgroundTreatment
+  getBackgroundTreatment() const
+  {
+    return request_.parameters.steps.background;
   }
   /** \brief The scene sensed before there were objects in it; turns to Exclude. Null forgets it.
    * \param cloud in the frame and unit of the input
@@ -248,11 +266,23 @@ public:
     request_.planes = planes;
     setBackgroundTreatment(BackgroundTreatment::Exclude);
   }
+  /** \brief Planes to be found. */
+  const std::vector<BackgroundPlane>&
+  getBackgroundPlanes() const
+  {
+    return request_.planes;
+  }
   /** \brief What of the input counts as near the background. */
   void
   setExclusionOptions(const ExclusionOptions& options)
   {
     request_.exclusion = options;
+  }
+  /** \brief What counts as near the background. */
+  const ExclusionOptions&
+  getExclusionOptions() const
+  {
+    return request_.exclusion;
   }
   /** \brief Searches the background cloud, whose neighbours are what is excluded: nothing else
    * here needs neighbours in a cloud. Default: OctreeRegionSearch. Its input cloud is replaced. */
@@ -276,6 +306,12 @@ public:
   {
     request_.leaf = leaf;
   }
+  /** \brief As set, 0: the default; the edge in use is SceneDiagnostics::leaf. */
+  double
+  getLeafSize() const
+  {
+    return request_.leaf;
+  }
   /** \brief All other constants; replaces background, seed, threads and progress too, but its leaf
    * is that of setLeafSize().
    * Method::Dissertation takes its steps. */
@@ -296,17 +332,35 @@ public:
   {
     request_.parameters.steps.seed = seed;
   }
+  /** \brief Random seed. */
+  std::uint64_t
+  getSeed() const
+  {
+    return request_.parameters.steps.seed;
+  }
   /** \brief Threads, 0 (default): all. */
   void
   setNumberOfThreads(unsigned threads = 0)
   {
     request_.parameters.steps.threads = threads;
   }
+  /** \brief Threads, 0: all. */
+  unsigned
+  getNumberOfThreads() const
+  {
+    return request_.parameters.steps.threads;
+  }
   /** \brief Keeps this many detections, those of the most cells; 0 (default): all. */
   void
   setMaximumDetections(std::size_t detections)
   {
     request_.max_detections = detections;
+  }
+  /** \brief Most detections, 0: all. */
+  std::size_t
+  getMaximumDetections() const
+  {
+    return request_.max_detections;
   }
   /** \brief Interprets several times and votes [Wahl 2007, Sec. 6.2]. By default once.
    *
@@ -318,6 +372,12 @@ public:
   {
     request_.accumulation = parameters;
     request_.seconds = seconds;
+  }
+  /** \brief How often it interprets, and how votes count. */
+  const AccumulationParameters&
+  getAccumulation() const
+  {
+    return request_.accumulation;
   }
   /** \brief Told the share done, in [0, 1]; returns false to cancel. See
    * DissertationParameters::progress. */

@@ -76,12 +76,24 @@ public:
   {
     request_.resolution = resolution;
   }
+  /** \brief Bins per dimension. */
+  const Resolution&
+  getResolution() const
+  {
+    return request_.resolution;
+  }
   /** \brief Upper end of delta in the cloud's unit; 0 (default): the largest distance in the cloud.
    */
   void
   setDeltaMax(double delta_max)
   {
     request_.delta_max = delta_max;
+  }
+  /** \brief Upper end of delta; 0: the largest distance in the cloud. */
+  double
+  getDeltaMax() const
+  {
+    return request_.delta_max;
   }
   /** \brief Pairs to draw, positive, default 1,000,000; a cloud that has no more pairs gives all of
    * them. */
@@ -90,17 +102,35 @@ public:
   {
     request_.pairs = pairs;
   }
+  /** \brief Pairs to draw. */
+  std::uint64_t
+  getNumberOfPairs() const
+  {
+    return request_.pairs;
+  }
   /** \brief Seed of the drawn pairs, default 1. */
   void
   setSeed(std::uint64_t seed)
   {
     request_.seed = seed;
   }
+  /** \brief Seed of the drawn pairs. */
+  std::uint64_t
+  getSeed() const
+  {
+    return request_.seed;
+  }
   /** \brief Threads, 0 (default): all. The result does not depend on it. */
   void
   setNumberOfThreads(unsigned threads = 0)
   {
     request_.threads = threads;
+  }
+  /** \brief Threads, 0: all. */
+  unsigned
+  getNumberOfThreads() const
+  {
+    return request_.threads;
   }
 
 private:

@@ -95,7 +95,7 @@ calibrated(std::vector<double> misfits)
 } // namespace
 
 ModelBankTrainer::ModelBankTrainer(HistogramModelTrainer trainer, ModelBank bank)
-    : trainer_(trainer), bank_(std::move(bank))
+    : trainer_(std::move(trainer)), bank_(std::move(bank))
 {
 }
 

@@ -253,6 +253,30 @@ ModelSearch::setSeed(std::uint64_t seed)
   data_->seed = seed;
 }
 
+std::size_t
+ModelSearch::getShortlist() const
+{
+  return data_->shortlist;
+}
+
+int
+ModelSearch::getChecks() const
+{
+  return data_->checks;
+}
+
+std::uint64_t
+ModelSearch::getNumberOfFeatures() const
+{
+  return data_->features;
+}
+
+std::uint64_t
+ModelSearch::getSeed() const
+{
+  return data_->seed;
+}
+
 std::vector<SearchHit>
 ModelSearch::search(const SurfletSet& query, std::size_t k) const
 {

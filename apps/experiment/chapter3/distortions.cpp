@@ -109,7 +109,7 @@ drawDistortions(const Rates& rates, const std::string& directory)
   Panel mean{"Fig. 3.8: all objects", label, {seriesCurve(rates, "", "mean")}, {}};
   for (const std::string series : {"1 axis", "2 axes", "3 axes"})
     mean.curves.push_back(seriesCurve(rates, series, series));
-  const auto no_picture = drawPanels(directory, "distortion", {mean}, 1);
+  std::string no_picture = drawPanels(directory, "distortion", {mean}, 1);
   std::vector<Panel> panels;
   for (std::size_t o = 0; o < rates.objects.size(); ++o)
     panels.push_back({rates.objects[o].label, "", {seriesCurve(rates, "", "", o)}, {}});

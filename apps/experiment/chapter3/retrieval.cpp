@@ -71,6 +71,7 @@ figure(const std::string& name, double x, const std::vector<RetrievalFigures>& c
        const Get& get)
 {
   std::vector<double> values;
+  values.reserve(classes.size());
   for (const auto& c : classes)
     values.push_back(get(c));
   return {name, meanOf(x, values)};

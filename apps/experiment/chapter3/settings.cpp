@@ -69,6 +69,7 @@ settingsAt(const std::vector<double>& percents, const std::string& what,
            const std::function<Condition(double share)>& condition)
 {
   std::vector<Setting> all;
+  all.reserve(percents.size());
   for (const double p : percents)
     all.push_back(fixedSetting(what + formatted(" %g %%", p), p, condition(p / 100)));
   return all;

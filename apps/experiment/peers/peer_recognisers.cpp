@@ -183,6 +183,7 @@ peers(const Training& training, const std::vector<std::string>& names,
       const std::vector<Setting>& settings)
 {
   std::vector<const PeerDescriptor*> wanted;
+  wanted.reserve(names.size());
   for (const auto& name : names)
     wanted.push_back(&descriptorNamed(name));
   training.progress(0, "training samples of the peers");

@@ -8,7 +8,7 @@
 namespace pcl_surflet {
 namespace apps {
 
-/** \brief The descriptors named in \p names (peerDescriptors()), each trained with kTrainingSamples
+/** \brief The descriptors named in \p names (peerDescriptors()), each trained with kTrainingRounds
  * samples an object and compared by the metric that recognises most of two further *training*
  * samples per object and setting of \p settings: no metric is chosen on test data.
  * \throws UsageError as requirePeers(), DataError if a descriptor fails on every training sample */

@@ -103,7 +103,10 @@ OctreeRegionSearch<PointT>::setBackend(Backend backend)
   options_.backend = backend == Octree ? SpaceBackend::Octree
                      : backend == AVL  ? SpaceBackend::Avl
                                        : SpaceBackend::Linear;
-  rebuild();
+  if (input_)
+    setInputCloud(input_, indices_);
+  else
+    rebuild();
 }
 
 template <typename PointT>
@@ -150,6 +153,20 @@ OctreeRegionSearch<PointT>::setNumberOfThreads(unsigned threads)
 {
   options_.threads = threads;
   search_.setThreads(threads);
+}
+
+template <typename PointT>
+int
+OctreeRegionSearch<PointT>::getDepth() const
+{
+  return options_.depth;
+}
+
+template <typename PointT>
+unsigned
+OctreeRegionSearch<PointT>::getNumberOfThreads() const
+{
+  return options_.threads;
 }
 
 template <typename PointT>

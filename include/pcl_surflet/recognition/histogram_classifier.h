@@ -104,11 +104,23 @@ public:
   {
     seed_ = seed;
   }
+  /** \brief Seed of the drawn pairs. */
+  std::uint64_t
+  getSeed() const
+  {
+    return seed_;
+  }
   /** \brief Threads of classifyBatch(), 0 (default): all. The result does not depend on it. */
   void
   setNumberOfThreads(unsigned threads)
   {
     threads_ = threads;
+  }
+  /** \brief Threads of classifyBatch(), 0: all. */
+  unsigned
+  getNumberOfThreads() const
+  {
+    return threads_;
   }
   /** \brief Worst value that is still accepted as known. For Likelihood the largest magnitude of
    * surprise (nats per feature): a shape whose features all fall into the model's fullest bins is
@@ -119,6 +131,12 @@ public:
   {
     threshold_ = threshold;
   }
+  /** \brief Worst value of what is known, if there is one. */
+  std::optional<double>
+  getUnknownThreshold() const
+  {
+    return threshold_;
+  }
   /** \brief Takes a query for unknown if its strangeness exceeds \p limit. Stands noise and missing
    * parts far better than a threshold of the surprise, but needs models trained in a bank and the
    * default number of features. No limit by default; a winner that was trained without bank passes.
@@ -127,6 +145,12 @@ public:
   setMisfitLimit(std::optional<double> limit)
   {
     misfit_limit_ = limit;
+  }
+  /** \brief Largest strangeness of what is known, if there is one. */
+  std::optional<double>
+  getMisfitLimit() const
+  {
+    return misfit_limit_;
   }
   /** \brief A limit from the training data alone: the mean over the members of what the strangeness
    * of 97.5 % of the samples stays below that were left out of a member's histogram; nothing if no
@@ -141,6 +165,12 @@ public:
   setScaleNormalized(bool on)
   {
     scale_normalized_ = on;
+  }
+  /** \brief Are shapes compared regardless of size? */
+  bool
+  isScaleNormalized() const
+  {
+    return scale_normalized_;
   }
 
   /** \brief Classifies one cloud.

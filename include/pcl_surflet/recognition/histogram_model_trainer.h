@@ -51,6 +51,12 @@ public:
   /** \brief Number of pairs drawn from a cloud, k, default 10,000,000. A cloud that has no more
    * pairs than that is trained with all of them. \throws std::invalid_argument if 0 */
   void setNumberOfPairs(std::uint64_t pairs);
+  /** \brief Number of pairs drawn from a cloud. */
+  std::uint64_t
+  getNumberOfPairs() const
+  {
+    return pairs_;
+  }
   /** \brief Random seed, default 1. */
   void
   setSeed(std::uint64_t seed)
@@ -81,11 +87,23 @@ public:
   {
     uneven_ = treatment;
   }
+  /** \brief What is done about uneven density. */
+  UnevenDensity
+  getUnevenDensity() const
+  {
+    return uneven_;
+  }
   /** \brief Role of the trained models, default Object. */
   void
   setRole(ModelRole role)
   {
     role_ = role;
+  }
+  /** \brief Role of the trained models. */
+  ModelRole
+  getRole() const
+  {
+    return role_;
   }
   /** \brief Surflets per sampling of a mesh, default 4500 (the dissertation: 3,500-5,500), and
    * number of samplings, default 5. \throws std::invalid_argument if below 2 or 1 */
