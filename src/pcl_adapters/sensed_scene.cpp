@@ -62,7 +62,7 @@ pcl::Normal
 normalOf(const Points& points, const pcl::PointXYZ& at, const pcl::Indices& neighbours)
 {
   constexpr float kOnALine = 1e-6F; // of the variances across and along it
-  Eigen::Matrix3f covariance;
+  Eigen::Matrix3f covariance = Eigen::Matrix3f::Zero();
   Eigen::Vector4f centroid, plane;
   Eigen::Vector3f variances;
   pcl::Normal out(NAN, NAN, NAN);
