@@ -2,6 +2,7 @@
 
 #include "app_common.h"
 #include "labelled_pcd.h"
+#include "model_cells.h"
 
 #include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/online_scene_interpreter.h"
@@ -77,6 +78,18 @@ textOf(const std::vector<OnlineDetection>& detections)
   return text;
 }
 
+/** \brief A direction in words; it is 0 where normals cancel out. */
+std::string
+sideOf(const std::array<double, 3>& direction)
+{
+  if (direction == std::array<double, 3>{})
+    return "any side";
+  char text[64];
+  std::snprintf(text, sizeof text, "the side of %.2f %.2f %.2f", direction[0], direction[1],
+                direction[2]);
+  return text;
+}
+
 void
 print(const std::string& path, const OnlineScan& scan, const OnlineInterpretation& online,
       double seconds, bool csv)
@@ -93,8 +106,8 @@ print(const std::string& path, const OnlineScan& scan, const OnlineInterpretatio
               path.c_str(), scan.surflets, scan.cells, scan.changed_cells, scan.vanished_cells,
               scan.interpreted_cells, seconds, found.empty() ? "nothing found" : found.c_str());
   for (const auto& a : online.attractors())
-    std::printf("  look at %.3f %.3f %.3f from the side of %.2f %.2f %.2f (%s)\n", a.centre[0],
-                a.centre[1], a.centre[2], a.view_from[0], a.view_from[1], a.view_from[2],
+    std::printf("  look at %.3f %.3f %.3f from %s (%s)\n", a.centre[0], a.centre[1], a.centre[2],
+                sideOf(a.view_from).c_str(),
                 a.id == 0 ? "unexplained" : ("detection " + std::to_string(a.id)).c_str());
 }
 
@@ -143,6 +156,8 @@ int
 replay(const std::vector<std::string>& files, const Options& o)
 {
   const ModelDatabase database = readDatabase(o.database);
+  if (const auto text = otherCells(o.database, database, o.leaf); !text.empty())
+    note(text);
   OnlineSceneInterpreter online(database, parametersFor(database, o));
   int code = kOk;
   if (o.csv)

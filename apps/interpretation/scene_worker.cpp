@@ -3,9 +3,8 @@
 #include "interpretation/selection.h"
 #include "interpretation/text.h"
 #include "labelled_pcd.h"
+#include "model_cells.h"
 #include "surfaces.h"
-
-#include <cmath>
 
 namespace pcl_surflet {
 namespace apps {
@@ -20,17 +19,6 @@ surfletsIn(const std::string& path, const InterpretOptions& o, std::vector<std::
   if (file.rejected > 0)
     notes.push_back(losses(path, file));
   return std::move(file.surflets);
-}
-
-/** \brief In other cells than it was trained for an object looks otherwise. */
-void
-noteLeaf(const ModelDatabase& database, const InterpretOptions& o, std::vector<std::string>& notes)
-{
-  constexpr double kAlike = 0.1;
-  const double trained = detail::trainedLeafOf(database);
-  if (o.leaf > 0 && trained > 0 && std::abs(o.leaf / trained - 1) > kAlike)
-    notes.push_back(o.database + ": the models were trained for cells of " + number(trained) +
-                    ", not of " + number(o.leaf) + "; see -leaf");
 }
 
 /** \brief Instances are numbered in the order of the detections, as the objects' files are. */
@@ -79,7 +67,8 @@ SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& 
     : o_(o)
 {
   interpreter_.setDatabase(database);
-  noteLeaf(database, o, notes);
+  if (const auto text = otherCells(o.database, database, o.leaf); !text.empty())
+    notes.push_back(text);
   interpreter_.setMethod(o.method);
   interpreter_.setBackgroundTreatment(o.background);
   interpreter_.setLeafSize(o.leaf);

@@ -51,6 +51,16 @@ TEST_F(Replay, ARowEveryScanAndTheCellsAfterTheLast)
   EXPECT_NE(cells.find("label instance"), std::string::npos);
 }
 
+TEST_F(Replay, SaysThatTheModelsAreForOtherCells)
+{
+  ASSERT_EQ(run("train", {"-database", path("cells.pcd"), "-bins", "7,7,7,7", "-leaf", "0.008",
+                          path("torus.pcd")})
+                .code,
+            0);
+  EXPECT_TRUE(ended(run("replay", {"-database", path("cells.pcd"), "-leaf", "1e9", scan(0)}), 0,
+                    {"cells of 0.008", "not of 1e+09", "-leaf"}));
+}
+
 TEST_F(Replay, GoesOnAfterABadScan)
 {
   writeFile(path("bad.pcd"), "nonsense");
