@@ -78,7 +78,7 @@ makeCollection(const std::vector<ExperimentObject>& objects, const CollectionPla
   HistogramModelTrainer trainer;
   trainer.setSeed(plan.seed);
   trainer.setNumberOfThreads(1);
-  trainer.setMeshSampling(kSamplingSize, 1);
+  trainer.setMeshSampling(kMeshSurflets, 1);
   Collection collection;
   for (std::size_t o = 0; o < objects.size(); ++o) {
     progress(o, "class " + objects[o].label);

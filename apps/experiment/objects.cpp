@@ -42,8 +42,8 @@ loadObjects(const std::string& directory, const std::vector<std::string>& labels
     object.mesh = scaledToDiameter(loadOff(directory + "/" + label + ".off"), 1.0);
     if (const auto problem = object.mesh.problem(); !problem.empty())
       throw std::invalid_argument(label + ".off: " + problem);
-    object.spacing = std::sqrt(surfaceArea(object.mesh) / static_cast<double>(kSamplingSize));
-    object.axes = principalAxes(sampleIsoMesh(object.mesh, kSamplingSize, 0));
+    object.spacing = std::sqrt(surfaceArea(object.mesh) / static_cast<double>(kMeshSurflets));
+    object.axes = principalAxes(sampleIsoMesh(object.mesh, kMeshSurflets, 0));
     objects.push_back(std::move(object));
   }
   return objects;

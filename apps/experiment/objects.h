@@ -15,12 +15,12 @@ namespace apps {
 struct ExperimentObject {
   std::string label;
   TriangleMesh mesh;
-  double spacing = 0; ///< distance between neighbours of an even sample of kSamplingSize surflets
+  double spacing = 0; ///< distance between neighbours of an even sample of kMeshSurflets surflets
   std::array<std::array<double, 3>, 3> axes{}; ///< principal axes of the surface, longest first
 };
 
 /** \brief Surflets per sampling, for training and queries alike [Wahl 2007, Sec. 3.6.1]. */
-constexpr std::size_t kSamplingSize = 4500;
+constexpr std::size_t kMeshSurflets = 4500;
 
 /** \brief The twenty objects that the experiments of chapter 3 use, all in the Debian package
  * libcgal-demo. */

@@ -38,7 +38,7 @@ makeQuery(const ExperimentObject& object, const Condition& condition, std::uint6
       whole ? TriangleMesh() : stretched(object.mesh, object.axes, condition.stretch);
   const TriangleMesh& mesh = whole ? object.mesh : other;
   const auto target = static_cast<std::size_t>(std::lround(
-      static_cast<double>(kSamplingSize) * condition.resolution * condition.resolution));
+      static_cast<double>(kMeshSurflets) * condition.resolution * condition.resolution));
   const bool sensed = condition.noise > 0 || condition.view;
   Query query;
   query.sampled = randomlyRotated(sampleIsoMesh(mesh, target, seed), mix64(seed));

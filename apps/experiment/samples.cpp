@@ -18,7 +18,7 @@ unturnedSamples(const ExperimentObject& object, std::uint64_t seed)
 {
   std::vector<SurfletSet> samples;
   for (unsigned i = 0; i < kTrainingRounds; ++i)
-    samples.push_back(withEstimatedNormals(sampleIsoMesh(object.mesh, kSamplingSize, seed + i),
+    samples.push_back(withEstimatedNormals(sampleIsoMesh(object.mesh, kMeshSurflets, seed + i),
                                            Condition().normal_radius * object.spacing, 1)
                           .surflets);
   return samples;

@@ -156,7 +156,7 @@ meshTrainer(const Training& training, const Resolution& resolution)
   trainer.setResolution(resolution);
   trainer.setSeed(training.seed);
   trainer.setNumberOfThreads(training.threads);
-  trainer.setMeshSampling(kSamplingSize, kTrainingRounds);
+  trainer.setMeshSampling(kMeshSurflets, kTrainingRounds);
   return trainer;
 }
 

@@ -31,7 +31,7 @@ boxObject()
   ExperimentObject object;
   object.label = "box";
   object.mesh = scaledToDiameter(meshOfShape(Shape::box(3, 2, 1), 0.5), 1);
-  object.spacing = std::sqrt(surfaceArea(object.mesh) / static_cast<double>(kSamplingSize));
+  object.spacing = std::sqrt(surfaceArea(object.mesh) / static_cast<double>(kMeshSurflets));
   object.axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   return object;
 }
@@ -81,7 +81,7 @@ TEST(ExperimentParts, HalfTheResolutionIsAQuarterOfThePoints)
 {
   const auto object = boxObject();
   const double full = static_cast<double>(makeQuery(object, {}, 1, false).sampled.size());
-  EXPECT_NEAR(full, kSamplingSize, 0.2 * kSamplingSize);
+  EXPECT_NEAR(full, kMeshSurflets, 0.2 * kMeshSurflets);
   const auto half = makeQuery(object, atResolution(0.5), 1, false).sampled.size();
   EXPECT_NEAR(static_cast<double>(half), full / 4, full / 20);
 }
@@ -283,7 +283,7 @@ TEST(ExperimentParts, AViewKeepsTheHalfOfABallThatFacesIt)
 {
   ExperimentObject ball;
   ball.mesh = scaledToDiameter(meshOfShape(Shape::sphere(1), 0.05), 1);
-  ball.spacing = std::sqrt(surfaceArea(ball.mesh) / static_cast<double>(kSamplingSize));
+  ball.spacing = std::sqrt(surfaceArea(ball.mesh) / static_cast<double>(kMeshSurflets));
   Condition c;
   c.view = true;
   const auto whole = makeQuery(ball, {}, 3, false).sampled,
