@@ -57,7 +57,7 @@ public:
   {
     const CubeFrame frame{{0, 0, 0}, 1, kDepth};
     octree_ = makeCellTree(TreeKind::Octree, frame);
-    avl_ = makeCellTree(TreeKind::Avl, frame);
+    avl_ = makeCellTree(TreeKind::AVL, frame);
     for (std::size_t i = 0; i < n; ++i) {
       const Position p = {static_cast<float>(random.uniform()),
                           static_cast<float>(random.uniform()),
@@ -160,7 +160,7 @@ spaceMethodNames()
 double
 relativeTime(const SpaceRow& row, std::size_t method)
 {
-  const double fastest = std::min({row.seconds[List], row.seconds[Octree], row.seconds[Avl]});
+  const double fastest = std::min({row.seconds[List], row.seconds[Octree], row.seconds[AVL]});
   return 100 * (row.seconds[method] / fastest - 1);
 }
 

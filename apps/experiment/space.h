@@ -19,7 +19,7 @@ struct SpaceOptions {
 };
 
 /** \brief A linked list (the naive approach), the dissertation's two trees, and this library's. */
-enum SpaceMethod : std::size_t { List, Octree, Avl, Linear, kSpaceMethods };
+enum SpaceMethod : std::size_t { List, Octree, AVL, Linear, kSpaceMethods };
 
 /** \brief Their names in tables. */
 const char* const* spaceMethodNames();

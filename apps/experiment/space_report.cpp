@@ -94,9 +94,9 @@ printSummary(const std::vector<SpaceRow>& rows)
   double octree_wins = 0, avl_wins = 0;
   for (const auto& [radius, us] : meanTimes(rows)) {
     octree_wins = us[Octree] < us[List] ? radius : octree_wins;
-    avl_wins = us[Avl] < us[List] ? radius : avl_wins;
+    avl_wins = us[AVL] < us[List] ? radius : avl_wins;
     std::printf("%7.3f %10.1f %10.1f %10.1f %10.1f %10.2f %14.3f\n", radius, us[List], us[Octree],
-                us[Avl], us[Linear], us[Avl] / us[Octree], us[Linear] / us[Octree]);
+                us[AVL], us[Linear], us[AVL] / us[Octree], us[Linear] / us[Octree]);
   }
   std::printf(
       "\nmean over saturations: octree beats the list up to r = %.3f, AVL tree up to %.3f\n",

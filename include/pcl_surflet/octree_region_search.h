@@ -60,11 +60,10 @@ public:
   using SetInputCloudResult = compat::SetInputCloudResult<Base>;
 
   /** \brief Representations; which to take: doc/space.md. */
-  enum Backend {
-    Octree, ///< dynamic, octrees of cells
-    AVL,    ///< dynamic, balanced trees of cells: less memory, slower
-    Linear  ///< static, the fastest
-  };
+  using Backend = SpaceBackend;
+  static constexpr Backend Octree = Backend::Octree; ///< dynamic, octrees of cells
+  static constexpr Backend AVL = Backend::AVL; ///< dynamic, balanced trees: less memory, slower
+  static constexpr Backend Linear = Backend::Linear; ///< static, the fastest
 
   /** \brief Empty. \param backend as setBackend() \param sorted as setSortedResults() */
   explicit OctreeRegionSearch(Backend backend = Linear, bool sorted = false);

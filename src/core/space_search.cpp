@@ -108,7 +108,7 @@ SpaceSearch::build(const Options& options, const PointArray& points, const Point
   }
   else {
     UnrestrictedSpace::Options space_options;
-    space_options.tree = options.backend == SpaceBackend::Octree ? TreeKind::Octree : TreeKind::Avl;
+    space_options.tree = options.backend == SpaceBackend::Octree ? TreeKind::Octree : TreeKind::AVL;
     space_options.cell = options.cell != 0 ? options.cell : suggestCellSize(points);
     space_options.depth = options.depth;
     space_options.threads = options.threads;
@@ -168,11 +168,11 @@ SpaceSearch::options() const
 }
 
 void
-SpaceSearch::setThreads(unsigned threads)
+SpaceSearch::setNumberOfThreads(unsigned threads)
 {
   options_.threads = threads;
   if (space_)
-    space_->setThreads(threads);
+    space_->setNumberOfThreads(threads);
 }
 
 double

@@ -145,7 +145,7 @@ UnrestrictedSpace::options() const
 }
 
 void
-UnrestrictedSpace::setThreads(unsigned threads)
+UnrestrictedSpace::setNumberOfThreads(unsigned threads)
 {
   options_.threads = threads;
 }

@@ -199,12 +199,17 @@ TEST_F(BadData, WhatCannotBeWrittenIsKnownBeforeTheWork)
 
 TEST_F(BadData, ReadOnlyDirectory)
 {
-  if (::geteuid() == 0)
-    GTEST_SKIP() << "root may write everywhere";
+  std::vector<std::string> command;
+  if (::geteuid() == 0) { // root may write everywhere, but for what is asked for here
+    command = {"/usr/bin/setpriv", "--bounding-set", "-dac_override"};
+    if (Running({command[0], command[1], command[2], "/bin/true"}).wait().code != 0)
+      GTEST_SKIP() << "root cannot give up its rights here";
+  }
   makeDatabase();
   const std::string before = readFile(path("db.pcd"));
+  command.insert(command.end(), {appPath("train"), "-database", path("db.pcd"), path("ball.pcd")});
   fs::permissions(directory_, fs::perms::owner_read | fs::perms::owner_exec);
-  const AppRun r = run("train", {"-database", path("db.pcd"), path("ball.pcd")});
+  const AppRun r = Running(command).wait();
   fs::permissions(directory_, fs::perms::owner_all);
   EXPECT_TRUE(ended(r, 2, {path("db.pcd"), "permissions"}));
   EXPECT_EQ(readFile(path("db.pcd")), before);

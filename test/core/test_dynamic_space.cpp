@@ -192,7 +192,7 @@ TEST_P(DynamicSpaceTest, ThreadsDoNotChangeTheResult)
   std::vector<float> d1, dn;
   space.regionSearch({0, 0, 0}, 0.9, one, &d1);
   for (const unsigned threads : {2u, 5u, 0u}) {
-    space.setThreads(threads);
+    space.setNumberOfThreads(threads);
     space.regionSearch({0, 0, 0}, 0.9, more, &dn);
     EXPECT_EQ(one, more);
     EXPECT_EQ(d1, dn);
@@ -261,7 +261,7 @@ TEST_P(DynamicSpaceTest, KeysBelowAnExploredPrefixAreFound)
 }
 
 INSTANTIATE_TEST_SUITE_P(Trees, DynamicSpaceTest,
-                         ::testing::Values(TreeKind::Octree, TreeKind::Avl));
+                         ::testing::Values(TreeKind::Octree, TreeKind::AVL));
 
 TEST(StartCells, EightAtMostAndTheyCoverTheRegion)
 {

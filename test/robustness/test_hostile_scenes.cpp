@@ -82,7 +82,8 @@ TEST_F(HostileScenes, RegionSearch)
 {
   for (const auto& [cloud_name, cloud] : hostileClouds())
     for (const auto backend : {Search::Linear, Search::Octree, Search::AVL}) {
-      const std::string name = cloud_name + ", backend " + std::to_string(backend);
+      const std::string name =
+          cloud_name + ", backend " + std::to_string(static_cast<int>(backend));
       Search search(backend);
       search.setInputCloud(cloud);
       EXPECT_LE(search.size(), cloud->size()) << name;
@@ -110,7 +111,8 @@ TEST_F(HostileScenes, RegionSearchWithPointsThatComeAndGo)
 {
   for (const auto& [cloud_name, cloud] : hostileClouds())
     for (const auto backend : {Search::Octree, Search::AVL}) {
-      const std::string name = cloud_name + ", backend " + std::to_string(backend);
+      const std::string name =
+          cloud_name + ", backend " + std::to_string(static_cast<int>(backend));
       Search search(backend);
       std::vector<pcl::index_t> added;
       for (const auto& p : *cloud)

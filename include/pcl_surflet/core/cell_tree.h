@@ -38,7 +38,7 @@ struct PCL_SURFLET_API CubeFrame {
 };
 
 /** \brief Which dynamic tree. */
-enum class TreeKind { Octree, Avl };
+enum class TreeKind { Octree, AVL };
 
 /** \brief A tree of the occupied atomic cells of one cube, each with its points and their mean
  * surflet (the bucket concept). Points come and go one at a time, in any order.

@@ -8,7 +8,7 @@
 namespace pcl_surflet {
 
 /** \brief How space is represented; see doc/space.md for the choice. */
-enum class SpaceBackend { Octree, Avl, Linear };
+enum class SpaceBackend { Octree, AVL, Linear };
 
 /** \brief A search of PCL's kind on any backend: sorted or not, bounded in number, in batches.
  *
@@ -53,12 +53,12 @@ public:
                            std::vector<PointIndex>& indices,
                            std::vector<float>& sqr_distances) const;
 
-  const RegionIndex& index() const;       ///< never null: an empty LinearOctree at first
-  const LinearOctree* linear() const;     ///< null for dynamic backends
-  const UnrestrictedSpace* space() const; ///< null for the static backend
-  UnrestrictedSpace* space();             ///< to be changed; null for the static backend
-  const Options& options() const;         ///< those of the last build()
-  void setThreads(unsigned threads);      ///< replaces Options::threads; 0: all of the machine
+  const RegionIndex& index() const;          ///< never null: an empty LinearOctree at first
+  const LinearOctree* linear() const;        ///< null for dynamic backends
+  const UnrestrictedSpace* space() const;    ///< null for the static backend
+  UnrestrictedSpace* space();                ///< to be changed; null for the static backend
+  const Options& options() const;            ///< those of the last build()
+  void setNumberOfThreads(unsigned threads); ///< replaces Options::threads; 0: all of the machine
 
 private:
   Options options_;

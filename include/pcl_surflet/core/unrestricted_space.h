@@ -56,10 +56,10 @@ public:
 
   bool contains(PointIndex id) const; ///< is the number in use?
 
-  const Options& options() const;    ///< as constructed, with the threads of setThreads()
-  void setThreads(unsigned threads); ///< replaces Options::threads; 0: all of the machine
-  std::size_t cubeCount() const;     ///< cubes that hold a point
-  std::size_t cellCount() const;     ///< occupied atomic cells of all cubes
+  const Options& options() const; ///< as constructed, with the threads of setNumberOfThreads()
+  void setNumberOfThreads(unsigned threads); ///< replaces Options::threads; 0: all of the machine
+  std::size_t cubeCount() const;             ///< cubes that hold a point
+  std::size_t cellCount() const;             ///< occupied atomic cells of all cubes
 
   SuperKey superKey(const Position& p) const; ///< of the cube that \p p lies in, occupied or not
 

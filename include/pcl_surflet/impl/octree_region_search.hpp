@@ -100,9 +100,7 @@ template <typename PointT>
 void
 OctreeRegionSearch<PointT>::setBackend(Backend backend)
 {
-  options_.backend = backend == Octree ? SpaceBackend::Octree
-                     : backend == AVL  ? SpaceBackend::Avl
-                                       : SpaceBackend::Linear;
+  options_.backend = backend;
   if (input_)
     setInputCloud(input_, indices_);
   else
@@ -113,9 +111,7 @@ template <typename PointT>
 typename OctreeRegionSearch<PointT>::Backend
 OctreeRegionSearch<PointT>::getBackend() const
 {
-  return options_.backend == SpaceBackend::Octree ? Octree
-         : options_.backend == SpaceBackend::Avl  ? AVL
-                                                  : Linear;
+  return options_.backend;
 }
 
 template <typename PointT>
@@ -152,7 +148,7 @@ void
 OctreeRegionSearch<PointT>::setNumberOfThreads(unsigned threads)
 {
   options_.threads = threads;
-  search_.setThreads(threads);
+  search_.setNumberOfThreads(threads);
 }
 
 template <typename PointT>
