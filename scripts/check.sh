@@ -56,7 +56,7 @@ each() {
 
 quick=(pair_counting training model_search cell_reduction octree_region_search depth_sensor estimation
   floating_seeds accumulation model_bank_trainer classifier)
-long=(linear_octree dynamic_space explanation interpretation scene_interpreter online_interpretation
+long=(linear_octree dynamic_space explanation explanation_parts interpretation scene_interpreter online_interpretation
   online_scene_interpreter sensed_scene pose pose_estimator hostile_scenes hostile_models interruptions)
 
 # Without random addresses: the thread sanitizer's memory map collides with some of them.

@@ -6,6 +6,7 @@
 #             which a comment before the block names: <!-- code: test/pcl/readme_example.cpp README -->
 # -update writes the programs' lines into the pages.
 set -euo pipefail
+export LC_ALL=C.UTF-8 # awk and sort go by the locale
 cd "$(dirname "$0")/.."
 update=false
 [ "${1:-}" = -update ] && update=true

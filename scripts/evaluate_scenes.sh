@@ -15,6 +15,7 @@
 #            no such rows
 #   MESHES   where the meshes of libcgal-demo are; fetched into data/ by default
 set -euo pipefail
+export LC_ALL=C.UTF-8 # awk and sort go by the locale
 directory=$(realpath -m "${1:?usage: evaluate_scenes.sh DIR [SCENES]}")
 scenes=${2:-100}
 cd "$(dirname "$0")/.."

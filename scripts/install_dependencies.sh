@@ -7,6 +7,7 @@ packages=(
   libpcl-dev libflann-dev libeigen3-dev libboost-all-dev
   libboost-mpi-dev openmpi-bin  # several processes; without them one process does it all
   libgtest-dev libbenchmark-dev libnanoflann-dev
+  locales  # numbers are read alike in all of them
   pkg-config  # consumers are tested with it
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display

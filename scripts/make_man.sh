@@ -4,6 +4,7 @@
 #   scripts/make_man.sh -check DIRECTORY_OF_THE_PROGRAMS     fails if they are not up to date
 # Needs help2man; without it -check ends with 77.
 set -euo pipefail
+export LC_ALL=C.UTF-8 # awk and sort go by the locale
 check=false
 [ "${1:-}" = -check ] && { check=true; shift; }
 programs=$(realpath "${1:-$(dirname "$0")/../build/ci/bin}")

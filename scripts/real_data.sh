@@ -11,6 +11,7 @@
 #   MESHES   where the meshes of libcgal-demo are; fetched into data/ by default
 #   THREADS  default 2
 set -euo pipefail
+export LC_ALL=C.UTF-8 # awk and sort go by the locale
 out=$(realpath -m "${1:?usage: real_data.sh DIR DATA}")
 data=$(realpath "${2:?usage: real_data.sh DIR DATA}")
 cd "$(dirname "$0")/.."

@@ -7,10 +7,35 @@
 #include <new>
 #include <stdexcept>
 
+#include <locale.h>
+
 namespace pcl_surflet {
 namespace detail {
 
 namespace {
+
+/** \brief Numbers are read as 1.5 by this thread while it lives: PCL 1.13 reads those of ASCII
+ * files as the program's locale writes them, which makes 1 of 1.5 in a program with German menus.
+ */
+class ClassicNumbers {
+public:
+  ClassicNumbers() : classic_(::newlocale(LC_ALL_MASK, "C", nullptr))
+  {
+    if (!classic_)
+      throw std::bad_alloc();
+    before_ = ::uselocale(classic_);
+  }
+  ~ClassicNumbers()
+  {
+    ::uselocale(before_);
+    ::freelocale(classic_);
+  }
+  ClassicNumbers(const ClassicNumbers&) = delete;
+  ClassicNumbers& operator=(const ClassicNumbers&) = delete;
+
+private:
+  locale_t classic_, before_{};
+};
 
 /** \brief Does PCL understand the header as it is written? A line of blanks ends it for PCL, which
  * then reads points of no fields and crashes. */
@@ -39,6 +64,7 @@ readPcd(const std::string& path, PcdContent& content)
   bool read = false;
   int version = 0;
   try {
+    const ClassicNumbers classic;
     pcl::PCDReader reader;
     if (!understands(reader, path, claim))
       return "its header is not understood: it may have a line of blanks, or a field twice";

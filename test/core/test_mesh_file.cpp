@@ -1,3 +1,4 @@
+#include "../comma_locale.h"
 #include "../full_disk.h"
 #include "../test_files.h"
 
@@ -6,10 +7,8 @@
 
 #include <gtest/gtest.h>
 
-#include <clocale>
 #include <filesystem>
 #include <limits>
-#include <locale>
 #include <string>
 
 #include <fcntl.h>
@@ -134,33 +133,13 @@ TEST_F(MeshFile, PointsAloneAreAMeshThatCannotBeSampled)
 
 TEST_F(MeshFile, ReadsAndWritesTheSameInEveryLocale)
 {
-  struct Comma : std::numpunct<char> {
-    char
-    do_decimal_point() const override
-    {
-      return ',';
-    }
-    char
-    do_thousands_sep() const override
-    {
-      return '.';
-    }
-    std::string
-    do_grouping() const override
-    {
-      return "\3";
-    }
-  };
-  // For the C++ streams a made-up locale; for the C library a real one, where one is installed.
-  const std::locale before = std::locale::global(std::locale(std::locale(), new Comma));
-  for (const char* name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
-    if (std::setlocale(LC_ALL, name))
-      break;
-  TriangleMesh mesh = load(replaced(kTriangle, "1 0 0", "1.5 0 0"));
-  mesh.vertices.resize(1234, {0.25f, 1e6f, 0});
-  saveOff(mesh, path("saved.off"));
-  std::locale::global(before);
-  std::setlocale(LC_ALL, "C");
+  TriangleMesh mesh;
+  {
+    const test::CommaLocale comma;
+    mesh = load(replaced(kTriangle, "1 0 0", "1.5 0 0"));
+    mesh.vertices.resize(1234, {0.25f, 1e6f, 0});
+    saveOff(mesh, path("saved.off"));
+  }
   EXPECT_EQ(mesh.vertices[1][0], 1.5f);
   EXPECT_CONTAINS(test::readFile(path("saved.off")), "1234 1 0\n");
   EXPECT_CONTAINS(test::readFile(path("saved.off")), "1.5 0 0\n");

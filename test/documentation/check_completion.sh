@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # check_completion.sh COMPLETION DIRECTORY_OF_THE_APPS: what bash offers at the end of some lines.
 set -uo pipefail
+export LC_ALL=C.UTF-8
 source "$1"
 programs=$(realpath "$2")
 export PATH=$programs:$PATH

@@ -1,5 +1,6 @@
 // What ends in the middle: programs that are killed while they write, callbacks that throw, and
 // locales that write numbers otherwise.
+#include "../comma_locale.h"
 #include "../full_disk.h"
 #include "../recognition/failing_allocation.h"
 #include "../test_files.h"
@@ -19,7 +20,6 @@
 #include <atomic>
 #include <csignal>
 #include <filesystem>
-#include <locale>
 #include <stdexcept>
 
 #include <sys/resource.h>
@@ -50,36 +50,6 @@ someModels()
   database.add(trainer.train("torus", torus()));
   return database;
 }
-
-/** \brief Numbers as in Germany: 1.234,5. */
-struct Comma : std::numpunct<char> {
-  char
-  do_decimal_point() const override
-  {
-    return ',';
-  }
-  char
-  do_thousands_sep() const override
-  {
-    return '.';
-  }
-  std::string
-  do_grouping() const override
-  {
-    return "\3";
-  }
-};
-
-class CommaLocale {
-public:
-  CommaLocale() : before_(std::locale::global(std::locale(std::locale(), new Comma))) {}
-  ~CommaLocale() { std::locale::global(before_); }
-  CommaLocale(const CommaLocale&) = delete;
-  CommaLocale& operator=(const CommaLocale&) = delete;
-
-private:
-  std::locale before_;
-};
 
 } // namespace
 
