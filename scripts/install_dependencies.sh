@@ -8,6 +8,7 @@ packages=(
   libboost-mpi-dev openmpi-bin  # several processes; without them one process does it all
   libgtest-dev libbenchmark-dev libnanoflann-dev
   locales  # numbers are read alike in all of them
+  python3  # seeds of the fuzzers
   pkg-config  # consumers are tested with it
   gnuplot-nox fonts-dejavu-core
   xvfb libgl1-mesa-dri  # pictures where there is no display

@@ -2,6 +2,8 @@
 // naming the option, and what it takes lies in the range.
 #include "app_common.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <iostream>
@@ -25,6 +27,14 @@ wordsOf(const std::uint8_t* data, std::size_t size)
   return words;
 }
 
+bool
+isUsable(const MissingNormals& normals)
+{
+  const auto isFinite = [](double v) { return std::isfinite(v); };
+  return (normals.neighbours == 0 || normals.neighbours >= 3) &&
+         (!normals.sensor || std::all_of(normals.sensor->begin(), normals.sensor->end(), isFinite));
+}
+
 } // namespace
 
 extern "C" int
@@ -35,7 +45,8 @@ LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
   for (auto& word : words)
     argv.push_back(word.data());
   bool flag = false;
-  std::uint64_t count = 5, seed = 1, threads = 0, neighbours = 3;
+  std::uint64_t count = 5, seed = 1, threads = 0;
+  MissingNormals normals;
   double real = 0.5;
   std::string text = "x";
   CommandLine line("program", "FILE...", "For the fuzzer.");
@@ -45,7 +56,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
   line.text("-text", "T", "a text", text);
   addSeed(line, seed);
   addThreads(line, threads);
-  addNeighbours(line, neighbours);
+  addMissingNormals(line, normals);
   std::cout.setstate(std::ios::failbit); // the help is long
   try {
     line.parse(static_cast<int>(argv.size()), argv.data());
@@ -57,7 +68,7 @@ LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size)
       std::abort();
   }
   if (count < 1 || count > 1000 || !(real >= -1 && real <= 1e30) || text.empty() ||
-      threads > 1024 || neighbours < 3 || line.files().size() > words.size())
+      threads > 1024 || !isUsable(normals) || line.files().size() > words.size())
     std::abort();
   return 0;
 }

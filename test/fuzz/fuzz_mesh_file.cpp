@@ -12,13 +12,13 @@ using namespace pcl_surflet;
 
 namespace {
 
-TriangleMesh
+[[maybe_unused]] TriangleMesh
 meshOf(TriangleMesh mesh)
 {
   return mesh;
 }
 
-TriangleMesh
+[[maybe_unused]] TriangleMesh
 meshOf(detail::PlyContent content)
 {
   if (!content.normals.empty() && content.normals.size() != content.mesh.vertices.size())
