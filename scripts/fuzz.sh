@@ -9,7 +9,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 seconds=${1:?usage: fuzz.sh SECONDS_PER_TARGET [TARGET...]}
 targets=("${@:2}")
-[ ${#targets[@]} -gt 0 ] || targets=(off ply obj stl pcd database command_line apps)
+[ ${#targets[@]} -gt 0 ] || targets=(off ply obj stl pcd database bank command_line apps)
 out=$PWD/out/fuzz
 mkdir -p "$out"
 python3 test/fuzz/corpus.py "$out/corpus"

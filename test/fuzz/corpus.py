@@ -123,5 +123,11 @@ def command_line():
                   bytes([program]) + b"\0".join(w.encode() for w in words))
 
 
-for kind in (off, ply, obj, stl, pcd, database, command_line):
+def bank():
+    write("bank", "all", "normals 3  # spacings\nnoise 1\nvisible 40 members 6\n\n"
+          "noise 4 visible 50 members 3\nview noise 0.3 members 6\n")
+    write("bank", "view", "view\r\n")
+
+
+for kind in (off, ply, obj, stl, pcd, database, bank, command_line):
     kind()
