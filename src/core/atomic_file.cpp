@@ -16,6 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int kMaxNames = 100;
+constexpr std::size_t kKeptOfName = 200; ///< bytes: a name with an ending must still be allowed
 
 /** \brief Writes all of \p content and closes \p descriptor; an errno value, 0 on success. */
 int
@@ -45,8 +46,9 @@ writeAndClose(int descriptor, const std::string& content, bool synchronise)
 int
 openBeside(const fs::path& target, std::string& name)
 {
+  const fs::path stem = target.parent_path() / target.filename().string().substr(0, kKeptOfName);
   for (int i = 0; i < kMaxNames; ++i) {
-    name = target.string() + ".tmp" + std::to_string(::getpid()) + "." + std::to_string(i);
+    name = stem.string() + ".tmp" + std::to_string(::getpid()) + "." + std::to_string(i);
     const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor >= 0 || errno != EEXIST)
       return descriptor;

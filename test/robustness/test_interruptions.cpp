@@ -99,6 +99,14 @@ TEST_F(Interruptions, AKilledWriterLeavesTheOldFileOrTheNew)
   }
 }
 
+TEST_F(Interruptions, NamesMayBeAsLongAsTheSystemAllows)
+{
+  const std::string longest = std::string(251, 'a') + ".pcd";
+  ASSERT_EQ(detail::replaceFile(path(longest), "content"), "");
+  EXPECT_EQ(readFile(path(longest)), "content");
+  EXPECT_NE(detail::replaceFile(path("a" + longest), "content"), "");
+}
+
 TEST_F(Interruptions, WhatAWorkerThrowsReachesTheCaller)
 {
   for (const unsigned threads : {1U, 2U, 7U}) {
