@@ -1,10 +1,11 @@
 #!/usr/bin/env bash
 # Builds the Debian packages into build/package/packages and has lintian look at them; errors count.
-# Compiled as the preset ci does, so that a compiler cache serves both.
+# Compiled as the preset ci does, so that scripts/build.sh has filled the compiler cache.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_dependencies.sh --with-checks
 build=build/package
+export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$PWD}
 umask 022
 rm -rf $build/packages
 cmake --preset ci -B $build -DPCL_SURFLET_BUILD_TESTS=OFF -DCMAKE_INSTALL_PREFIX=/usr \
