@@ -11,8 +11,8 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-constexpr std::size_t kColumns = 5;
-constexpr const char* kPicture = "objects.png";
+constexpr std::size_t kObjectsPerRow = 5;
+constexpr const char* kGallery = "objects.png";
 constexpr std::size_t kDots = 9000;
 
 struct Dot {
@@ -75,9 +75,9 @@ histogramData(const ModelDatabase& database)
 void
 addCell(std::ostringstream& script, const std::string& label, std::size_t i, std::size_t rows)
 {
-  const double width = 1.0 / kColumns, height = 1.0 / static_cast<double>(rows);
-  const std::size_t row = i / kColumns;
-  const double x = width * static_cast<double>(i % kColumns);
+  const double width = 1.0 / kObjectsPerRow, height = 1.0 / static_cast<double>(rows);
+  const std::size_t row = i / kObjectsPerRow;
+  const double x = width * static_cast<double>(i % kObjectsPerRow);
   const double y = 1 - height * static_cast<double>(row + 1);
   script << "set size " << width << "," << 0.74 * height << "\nset origin " << x << ","
          << y + 0.26 * height << "\nset title '" << label << "' noenhanced offset 0,-0.7\n"
@@ -92,11 +92,11 @@ addCell(std::ostringstream& script, const std::string& label, std::size_t i, std
 std::string
 scriptFor(const std::vector<ExperimentObject>& objects)
 {
-  const std::size_t rows = (objects.size() + kColumns - 1) / kColumns;
+  const std::size_t rows = (objects.size() + kObjectsPerRow - 1) / kObjectsPerRow;
   std::ostringstream script;
   script.imbue(std::locale::classic());
   script << "set terminal pngcairo size 1500," << 330 * rows << " font 'sans,12'\n"
-         << outputStatements(kPicture) << "unset key\nunset tics\nunset border\n"
+         << outputStatements(kGallery) << "unset key\nunset tics\nunset border\n"
          << "set lmargin 1\nset rmargin 1\nset bmargin 0.3\nset tmargin 1.2\nset multiplot\n";
   for (std::size_t i = 0; i < objects.size(); ++i)
     addCell(script, objects[i].label, i, rows);
@@ -113,7 +113,7 @@ drawGallery(const std::vector<ExperimentObject>& objects, const ModelDatabase& d
   writeFile(directory + "/points.dat", pointData(objects));
   writeFile(directory + "/histograms.dat", histogramData(database));
   writeFile(directory + "/gallery.gp", scriptFor(objects));
-  return drawByGnuplot(directory, "gallery.gp", kPicture);
+  return drawByGnuplot(directory, "gallery.gp", kGallery);
 }
 
 } // namespace apps

@@ -2,6 +2,7 @@
 
 #include "pcl_surflet/core/counter_random.h"
 #include "pcl_surflet/core/depth_buffer.h"
+#include "require.h"
 #include "vector3.h"
 
 #include <algorithm>
@@ -15,6 +16,7 @@ namespace {
 using namespace detail;
 
 constexpr double kDegree = M_PI / 180;
+constexpr const char* kSensorNeeds = "pcl_surflet: a depth sensor needs ";
 /** \brief What is nearer than this share of a triangle's farthest corner is cut off: it would be
  * endlessly large in the picture. */
 constexpr double kNear = 1e-6;
@@ -23,24 +25,21 @@ constexpr double kShadowPixels = 2, kShadowSlope = 5;
 constexpr std::uint64_t kNoiseStream = 0x6e6f697365ULL, kFlyingStream = 0x666c79ULL;
 
 void
-require(bool fine, const char* what)
-{
-  if (!fine)
-    throw std::invalid_argument(std::string("pcl_surflet: a depth sensor needs ") + what);
-}
-
-void
 check(const DepthSensor& s)
 {
   const auto within = [](double v, double low, double high) { return v >= low && v <= high; };
-  require(s.opening > 0 && s.opening <= 170, "an opening angle above 0 and up to 170 degrees");
-  require(s.noise >= 0 && std::isfinite(s.noise), "a noise that is finite and not negative");
-  require(within(s.noise_power, 0, 4), "a noise power from 0 to 4");
-  require(s.quantum >= 0 && std::isfinite(s.quantum), "a quantum that is finite and not negative");
-  require(within(s.flying, 0, 1), "a share of flying points from 0 to 1");
-  require(s.edge > 0, "a positive depth difference for edges");
-  require(s.grazing > 0 && s.grazing <= 90, "a grazing angle above 0 and up to 90 degrees");
-  require(std::isfinite(s.baseline), "a finite baseline");
+  require(s.opening > 0 && s.opening <= 170, "an opening angle above 0 and up to 170 degrees",
+          kSensorNeeds);
+  require(s.noise >= 0 && std::isfinite(s.noise), "a noise that is finite and not negative",
+          kSensorNeeds);
+  require(within(s.noise_power, 0, 4), "a noise power from 0 to 4", kSensorNeeds);
+  require(s.quantum >= 0 && std::isfinite(s.quantum), "a quantum that is finite and not negative",
+          kSensorNeeds);
+  require(within(s.flying, 0, 1), "a share of flying points from 0 to 1", kSensorNeeds);
+  require(s.edge > 0, "a positive depth difference for edges", kSensorNeeds);
+  require(s.grazing > 0 && s.grazing <= 90, "a grazing angle above 0 and up to 90 degrees",
+          kSensorNeeds);
+  require(std::isfinite(s.baseline), "a finite baseline", kSensorNeeds);
 }
 
 /** \brief A triangle in the sensor's frame. */
@@ -91,7 +90,7 @@ public:
         focal_(0.5 * static_cast<double>(s.columns) / std::tan(0.5 * s.opening * kDegree)),
         middle_{0.5 * static_cast<double>(s.columns - 1), 0.5 * static_cast<double>(s.rows - 1)}
   {
-    require(facets.size() < DepthBuffer::nothing, "fewer than 2^32 triangles");
+    require(facets.size() < DepthBuffer::nothing, "fewer than 2^32 triangles", kSensorNeeds);
     for (std::size_t i = 0; i < facets.size(); ++i)
       draw(facets[i].corners, static_cast<std::uint32_t>(i));
   }

@@ -2,6 +2,7 @@
 
 #include "pcl_surflet/core/conditions.h"
 #include "pcl_surflet/core/counter_random.h"
+#include "require.h"
 #include "scene_parts.h"
 
 #include <algorithm>
@@ -104,6 +105,7 @@ translate(PlacementItem& item, const Vector3& by)
 namespace {
 
 constexpr double kMaxSurflets = 1 << 28;
+constexpr const char* kGenerator = "generateScene: ";
 constexpr double kLeastLean = M_PI / 12, kMostLean = M_PI / 4;
 
 // Independent random numbers for what is drawn from one seed.
@@ -111,25 +113,15 @@ constexpr std::uint64_t kChoiceStream = 0x63686f696365ULL, kPostureStream = 0x70
 constexpr std::uint64_t kSampleStream = 0x73616d70ULL, kEmptyStream = 0x656d707479ULL;
 
 void
-requirePositive(double value, const char* name, bool or_zero = false)
-{
-  if (!std::isfinite(value) || value < 0 || (value == 0 && !or_zero))
-    throw std::invalid_argument(std::string("generateScene: ") + name +
-                                (or_zero ? " must be finite and not negative, not "
-                                         : " must be positive and finite, not ") +
-                                std::to_string(value));
-}
-
-void
 check(const SceneOptions& o)
 {
-  requirePositive(o.size, "size");
-  requirePositive(o.width, "width", true);
-  requirePositive(o.wall_height, "wall_height");
-  requirePositive(o.density, "density");
-  requirePositive(o.distance_factor, "distance_factor", true);
-  requirePositive(o.gap, "gap", true);
-  requirePositive(o.noise, "noise", true);
+  requirePositive(o.size, "size", kGenerator);
+  requirePositive(o.width, "width", kGenerator, true);
+  requirePositive(o.wall_height, "wall_height", kGenerator);
+  requirePositive(o.density, "density", kGenerator);
+  requirePositive(o.distance_factor, "distance_factor", kGenerator, true);
+  requirePositive(o.gap, "gap", kGenerator, true);
+  requirePositive(o.noise, "noise", kGenerator, true);
 }
 
 std::size_t

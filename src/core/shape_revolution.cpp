@@ -9,14 +9,13 @@ namespace detail {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kSqrt2 = 1.41421356237309504880;
 
 /** \brief Slices around a circle: their chord is a leg, the edge between triangles a diagonal. */
 std::uint32_t
 slicesAround(double radius, double longest_edge)
 {
-  const double slices = std::max(3.0, std::ceil(2 * kPi * radius * kSqrt2 / longest_edge));
+  const double slices = std::max(3.0, std::ceil(2 * M_PI * radius * kSqrt2 / longest_edge));
   checkMeshSize(slices);
   return static_cast<std::uint32_t>(slices);
 }
@@ -54,7 +53,7 @@ public:
   {
     const auto first = static_cast<std::uint32_t>(mesh_.vertices.size());
     for (std::uint32_t k = 0; k < (at[0] > 0 ? slices_ : 1); ++k) {
-      const double phi = 2 * kPi * k / slices_;
+      const double phi = 2 * M_PI * k / slices_;
       mesh_.vertices.push_back(toFloat3({at[0] * std::cos(phi), at[0] * std::sin(phi), at[1]}));
     }
     return first;
@@ -94,7 +93,7 @@ RevolutionBody::RevolutionBody(std::vector<Shape::ProfilePoint> profile)
   double sum = 0;
   for (std::size_t i = 0; i + 1 < profile_.size(); ++i) {
     const auto &a = profile_[i], &b = profile_[i + 1];
-    cumulative_.push_back(sum += kPi * (a[0] + b[0]) * std::hypot(b[0] - a[0], b[1] - a[1]));
+    cumulative_.push_back(sum += M_PI * (a[0] + b[0]) * std::hypot(b[0] - a[0], b[1] - a[1]));
   }
 }
 
@@ -115,7 +114,7 @@ RevolutionBody::sample(CounterRandom& random) const
   const double r = std::sqrt(a[0] * a[0] + u * (b[0] * b[0] - a[0] * a[0]));
   const double t = r + a[0] > 0 ? u * (a[0] + b[0]) / (r + a[0]) : 0;
   const double z = a[1] + t * (b[1] - a[1]);
-  const double phi = random.uniform(-kPi, kPi);
+  const double phi = random.uniform(-M_PI, M_PI);
   const double c = std::cos(phi), s = std::sin(phi);
   const double outward = b[1] - a[1], up = a[0] - b[0];
   return {{r * c, r * s, z}, {outward * c, outward * s, up}};
@@ -151,8 +150,8 @@ TorusBody::TorusBody(double major_radius, double minor_radius, double wall_radiu
   // The trapezoidal rule converges exponentially: the integrand is smooth and periodic.
   constexpr int kSteps = 4096;
   for (int i = 0; i < kSteps; ++i) {
-    const double theta = 2 * kPi * i / kSteps;
-    area_ += minor_ * 2 * weight(theta) * (2 * kPi / kSteps);
+    const double theta = 2 * M_PI * i / kSteps;
+    area_ += minor_ * 2 * weight(theta) * (2 * M_PI / kSteps);
     largest_weight_ = std::max(largest_weight_, weight(theta));
   }
   largest_weight_ *= 1 + 1e-4; // the maximum may lie between two steps
@@ -163,7 +162,7 @@ double
 TorusBody::phiEnd(double theta) const
 {
   if (!(wall_ > 0))
-    return kPi;
+    return M_PI;
   // (wall + rho cos phi)^2 + (minor sin theta)^2 = wall^2, with rho the distance to the ring's
   // axis.
   const double rho = major_ + minor_ * std::cos(theta), side = minor_ * std::sin(theta);
@@ -202,7 +201,7 @@ ExactSurflet
 TorusBody::sample(CounterRandom& random) const
 {
   while (true) {
-    const double theta = random.uniform(-kPi, kPi);
+    const double theta = random.uniform(-M_PI, M_PI);
     if (random.uniform() * largest_weight_ > weight(theta))
       continue;
     const double end = phiEnd(theta);
@@ -220,7 +219,7 @@ TorusBody::mesh(double longest_edge) const
   TriangleMesh mesh;
   for (std::uint32_t i = 0; i < (whole ? along : along + 1); ++i)
     for (std::uint32_t k = 0; k < around; ++k) {
-      const double theta = 2 * kPi * k / around;
+      const double theta = 2 * M_PI * k / around;
       mesh.vertices.push_back(toFloat3(at((2.0 * i / along - 1) * phiEnd(theta), theta).p));
     }
   for (std::uint32_t i = 0; i < along; ++i)

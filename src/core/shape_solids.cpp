@@ -11,8 +11,6 @@ namespace detail {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /** \brief Lattice points of a face of the icosahedron: corners (a, b, c) with weights (i, j, k). */
 class GeodesicGrid {
 public:
@@ -129,12 +127,12 @@ EllipsoidBody::EllipsoidBody(const Vector3& axes)
     const double z = static_cast<double>(i) / kHeights, r = std::sqrt(1 - z * z);
     const double wz = i == 0 || i == kHeights ? 1 : (i % 2 ? 4 : 2);
     for (int k = 0; k <= kAzimuths; ++k) {
-      const double phi = kPi / 2 * k / kAzimuths;
+      const double phi = M_PI / 2 * k / kAzimuths;
       const double w = k == 0 || k == kAzimuths ? 0.5 : 1;
       sum += wz * w * stretch({r * std::cos(phi), r * std::sin(phi), z});
     }
   }
-  area_ = 8 * sum / (3.0 * kHeights) * (kPi / 2 / kAzimuths);
+  area_ = 8 * sum / (3.0 * kHeights) * (M_PI / 2 / kAzimuths);
 }
 
 /** \brief Area on the ellipsoid per area on the unit sphere that it is stretched from. */
@@ -154,7 +152,7 @@ ExactSurflet
 EllipsoidBody::sample(CounterRandom& random) const
 {
   while (true) {
-    const double z = random.uniform(-1, 1), phi = random.uniform(-kPi, kPi);
+    const double z = random.uniform(-1, 1), phi = random.uniform(-M_PI, M_PI);
     const double r = std::sqrt(1 - z * z);
     const Vector3 u = {r * std::cos(phi), r * std::sin(phi), z};
     if (random.uniform() * largest_stretch_ > stretch(u))

@@ -1,5 +1,6 @@
 #include "pcl_surflet/core/shapes.h"
 
+#include "require.h"
 #include "shape_bodies.h"
 
 #include <cmath>
@@ -14,21 +15,7 @@ namespace {
 constexpr std::uint64_t kShapeStream = 0x7368617065ULL;
 
 constexpr double kMaxTriangles = 5e7;
-
-void
-requirePositive(double value, const char* what)
-{
-  if (!(value > 0) || !std::isfinite(value))
-    throw std::invalid_argument(std::string("Shape: ") + what +
-                                " must be positive and finite, not " + std::to_string(value));
-}
-
-void
-require(bool holds, const char* what)
-{
-  if (!holds)
-    throw std::invalid_argument(std::string("Shape: ") + what);
-}
+constexpr const char* kShape = "Shape: ";
 
 } // namespace
 
@@ -43,8 +30,8 @@ detail::checkMeshSize(double triangles)
 Shape
 Shape::plane(double width, double depth)
 {
-  requirePositive(width, "width");
-  requirePositive(depth, "depth");
+  requirePositive(width, "width", kShape);
+  requirePositive(depth, "depth", kShape);
   const double x = width / 2, y = depth / 2;
   return Shape(std::make_shared<detail::PolyhedronBody>(
       std::vector<detail::Vector3>{{-x, -y, 0}, {x, -y, 0}, {x, y, 0}, {-x, y, 0}},
@@ -54,9 +41,9 @@ Shape::plane(double width, double depth)
 Shape
 Shape::box(double width, double depth, double height)
 {
-  requirePositive(width, "width");
-  requirePositive(depth, "depth");
-  requirePositive(height, "height");
+  requirePositive(width, "width", kShape);
+  requirePositive(depth, "depth", kShape);
+  requirePositive(height, "height", kShape);
   std::vector<detail::Vector3> corners;
   for (unsigned i = 0; i < 8; ++i)
     corners.push_back({(i & 1 ? 0.5 : -0.5) * width, (i & 2 ? 0.5 : -0.5) * depth,
@@ -79,7 +66,7 @@ Shape::box(double width, double depth, double height)
 Shape
 Shape::tetrahedron(double edge)
 {
-  requirePositive(edge, "edge");
+  requirePositive(edge, "edge", kShape);
   const double h = edge / std::sqrt(8.0); // every other corner of a cube of edge 2 h
   return Shape(std::make_shared<detail::PolyhedronBody>(
       std::vector<detail::Vector3>{{h, h, h}, {h, -h, -h}, {-h, h, -h}, {-h, -h, h}},
@@ -89,71 +76,72 @@ Shape::tetrahedron(double edge)
 Shape
 Shape::sphere(double radius)
 {
-  requirePositive(radius, "radius");
+  requirePositive(radius, "radius", kShape);
   return ellipsoid(radius, radius, radius);
 }
 
 Shape
 Shape::ellipsoid(double a, double b, double c)
 {
-  requirePositive(a, "semi-axis a");
-  requirePositive(b, "semi-axis b");
-  requirePositive(c, "semi-axis c");
+  requirePositive(a, "semi-axis a", kShape);
+  requirePositive(b, "semi-axis b", kShape);
+  requirePositive(c, "semi-axis c", kShape);
   return Shape(std::make_shared<detail::EllipsoidBody>(detail::Vector3{a, b, c}));
 }
 
 Shape
 Shape::torus(double major_radius, double minor_radius)
 {
-  requirePositive(major_radius, "major_radius");
-  requirePositive(minor_radius, "minor_radius");
-  require(minor_radius < major_radius, "minor_radius must be smaller than major_radius");
+  requirePositive(major_radius, "major_radius", kShape);
+  requirePositive(minor_radius, "minor_radius", kShape);
+  require(minor_radius < major_radius, "minor_radius must be smaller than major_radius", kShape);
   return Shape(std::make_shared<detail::TorusBody>(major_radius, minor_radius));
 }
 
 Shape
 Shape::cylinder(double radius, double height)
 {
-  requirePositive(radius, "radius");
-  requirePositive(height, "height");
+  requirePositive(radius, "radius", kShape);
+  requirePositive(height, "height", kShape);
   return revolution({{0, 0}, {radius, 0}, {radius, height}, {0, height}});
 }
 
 Shape
 Shape::cone(double radius, double height)
 {
-  requirePositive(radius, "radius");
-  requirePositive(height, "height");
+  requirePositive(radius, "radius", kShape);
+  requirePositive(height, "height", kShape);
   return revolution({{0, 0}, {radius, 0}, {0, height}});
 }
 
 Shape
 Shape::revolution(const std::vector<ProfilePoint>& profile)
 {
-  require(profile.size() >= 2, "a profile needs at least two points");
+  require(profile.size() >= 2, "a profile needs at least two points", kShape);
   bool off_axis = false;
   for (std::size_t i = 0; i < profile.size(); ++i) {
     require(std::isfinite(profile[i][0]) && std::isfinite(profile[i][1]) && profile[i][0] >= 0,
-            "profile coordinates must be finite, distances to the axis not negative");
-    require(i == 0 || profile[i] != profile[i - 1], "a profile point is repeated");
+            "profile coordinates must be finite, distances to the axis not negative", kShape);
+    require(i == 0 || profile[i] != profile[i - 1], "a profile point is repeated", kShape);
     off_axis = off_axis || profile[i][0] > 0;
   }
-  require(off_axis, "the profile lies on the axis");
+  require(off_axis, "the profile lies on the axis", kShape);
   return Shape(std::make_shared<detail::RevolutionBody>(profile));
 }
 
 Shape
 Shape::cup(double radius, double height, double wall, double handle_radius, double handle_thickness)
 {
-  requirePositive(radius, "radius");
-  requirePositive(height, "height");
-  requirePositive(wall, "wall");
-  requirePositive(handle_radius, "handle_radius");
-  requirePositive(handle_thickness, "handle_thickness");
-  require(wall < radius && wall < height / 2, "the wall is too thick for the cup");
+  requirePositive(radius, "radius", kShape);
+  requirePositive(height, "height", kShape);
+  requirePositive(wall, "wall", kShape);
+  requirePositive(handle_radius, "handle_radius", kShape);
+  requirePositive(handle_thickness, "handle_thickness", kShape);
+  require(wall < radius && wall < height / 2, "the wall is too thick for the cup", kShape);
   require(handle_thickness < handle_radius && handle_thickness < radius / 2,
-          "the handle is too thick");
-  require(handle_radius + handle_thickness < height / 2, "the handle is higher than the wall");
+          "the handle is too thick", kShape);
+  require(handle_radius + handle_thickness < height / 2, "the handle is higher than the wall",
+          kShape);
   return Shape(
       std::make_shared<detail::CupBody>(radius, height, wall, handle_radius, handle_thickness));
 }

@@ -15,7 +15,7 @@ namespace {
 /** \brief Output clouds larger than this do not fit PCL's 32-bit indices. */
 constexpr std::uint64_t kMostPairs = 0x7fffffff;
 constexpr std::uint64_t kDrawsPerPair = 100;
-constexpr std::uint64_t kBlock = 1 << 16;
+constexpr std::uint64_t kDrawsAtATime = 1 << 16;
 
 SurfletPairSignature
 signature(const PairFeature& f, std::uint32_t i, std::uint32_t j)
@@ -93,12 +93,12 @@ drawnPairs(const PairComputation& computation, std::size_t m, const PairFeatureR
   const std::uint64_t wanted = std::min(request.pairs, kMostPairs);
   // A round draws what is missing; without a distance limit the first one is nearly enough.
   for (std::uint64_t first = 0; out.size() < wanted && first < kDrawsPerPair * wanted;) {
-    const std::uint64_t n = wanted - out.size() + kBlock / 64;
-    std::vector<PairBlock> blocks((n + kBlock - 1) / kBlock);
+    const std::uint64_t n = wanted - out.size() + kDrawsAtATime / 64;
+    std::vector<PairBlock> blocks((n + kDrawsAtATime - 1) / kDrawsAtATime);
     parallelFor(blocks.size(), request.threads, [&](std::size_t b, unsigned) {
-      const std::uint64_t begin = b * kBlock;
+      const std::uint64_t begin = b * kDrawsAtATime;
       for (const auto& [i, j] :
-           drawPairs(m, std::min(kBlock, n - begin), request.seed, first + begin))
+           drawPairs(m, std::min(kDrawsAtATime, n - begin), request.seed, first + begin))
         computation.add(i, j, blocks[b]);
     });
     rejected += append(blocks, wanted, out);

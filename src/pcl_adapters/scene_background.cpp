@@ -1,5 +1,6 @@
 // BackgroundTreatment::Exclude: what of a cloud is background.
 
+#include "core/require.h"
 #include "pcl_surflet/core/cell_reduction.h"
 #include "pcl_surflet/scene_interpreter.h"
 
@@ -8,26 +9,16 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 namespace pcl_surflet {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-void
-require(bool holds, const char* what)
-{
-  if (!holds)
-    throw std::invalid_argument(std::string("pcl_surflet: ") + what);
-}
 
 void
 check(const ExclusionOptions& options)
 {
   require(options.distance > 0 && std::isfinite(options.distance),
           "the distance from the background must be positive and finite");
-  require(options.max_angle > 0 && options.max_angle <= kPi + 1e-6,
+  require(options.max_angle > 0 && options.max_angle <= M_PI + 1e-6,
           "the angle to the background's normals must be in (0, pi]");
 }
 
@@ -36,7 +27,7 @@ check(const BackgroundPlane& plane)
 {
   for (const double v : plane.normal)
     require(std::isfinite(v), "the normal of a background plane must be finite");
-  require(plane.max_tilt > 0 && plane.max_tilt <= kPi / 2 + 1e-6,
+  require(plane.max_tilt > 0 && plane.max_tilt <= M_PI / 2 + 1e-6,
           "max_tilt of a background plane must be in (0, pi / 2]");
   require(plane.min_share > 0 && plane.min_share <= 1,
           "min_share of a background plane must be in (0, 1]");

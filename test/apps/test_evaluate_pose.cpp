@@ -24,7 +24,7 @@ countsOf(const std::string& table, const std::string& object)
 }
 
 AppRun
-evaluated(std::vector<std::string> arguments)
+evaluatedPoses(std::vector<std::string> arguments)
 {
   for (const char* common : {"-scenes", "1", "-density", "60000", "-size", "0.8", "cup", "bottle"})
     arguments.emplace_back(common);
@@ -35,22 +35,22 @@ evaluated(std::vector<std::string> arguments)
 
 TEST(EvaluatePose, CompleteSurfacesArePosedRight)
 {
-  const AppRun r = evaluated({"-seed", "5"});
+  const AppRun r = evaluatedPoses({"-seed", "5"});
   ASSERT_TRUE(ended(r, 0, {"bottle", "continuous"}));
   EXPECT_EQ(countsOf(r.out, "all"), (std::vector<int>{2, 2, 2, 2})) << r.out;
 }
 
 TEST(EvaluatePose, NothingIsRightWithinNoLimit)
 {
-  const AppRun r = evaluated({"-seed", "5", "-limit", "0"});
+  const AppRun r = evaluatedPoses({"-seed", "5", "-limit", "0"});
   ASSERT_TRUE(ended(r, 0, {}));
   EXPECT_EQ(countsOf(r.out, "all"), (std::vector<int>{2, 2, 2, 0})) << r.out;
 }
 
 TEST(EvaluatePose, ForeignPointsLowerTheInliers)
 {
-  const AppRun clean = evaluated({"-seed", "5", "-verbose"});
-  const AppRun mixed = evaluated({"-seed", "5", "-verbose", "-foreign", "0.2"});
+  const AppRun clean = evaluatedPoses({"-seed", "5", "-verbose"});
+  const AppRun mixed = evaluatedPoses({"-seed", "5", "-verbose", "-foreign", "0.2"});
   ASSERT_TRUE(ended(mixed, 0, {}));
   EXPECT_NE(clean.err, mixed.err);
   EXPECT_EQ(countsOf(mixed.out, "all"), (std::vector<int>{2, 2, 2, 2})) << mixed.out;
@@ -58,8 +58,8 @@ TEST(EvaluatePose, ForeignPointsLowerTheInliers)
 
 TEST(EvaluatePose, ASensorSeesOneSide)
 {
-  const AppRun r = evaluated({"-seed", "5", "-views", "one", "-pixels", "320x240", "-normal_radius",
-                              "0.012", "-sensor_noise", "0.0005"});
+  const AppRun r = evaluatedPoses({"-seed", "5", "-views", "one", "-pixels", "320x240",
+                                   "-normal_radius", "0.012", "-sensor_noise", "0.0005"});
   ASSERT_TRUE(ended(r, 0, {}));
   const auto counts = countsOf(r.out, "bottle");
   ASSERT_EQ(counts.size(), 4U) << r.out;

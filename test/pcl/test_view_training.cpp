@@ -27,7 +27,7 @@ sevenIntervals()
 }
 
 std::vector<SceneItem>
-things()
+bottleAndGlass()
 {
   return {sceneItem("bottle", *shapeByName("bottle")),
           sceneItem("glass", *shapeByName("wine_glass"))};
@@ -38,7 +38,7 @@ modelOf(std::size_t k)
 {
   static const std::vector<HistogramModel> models = [] {
     std::vector<HistogramModel> all;
-    for (const auto& item : things())
+    for (const auto& item : bottleAndGlass())
       all.push_back(trainForSensors(sevenIntervals(), item, sensingFor(item, kLeaf), kLeaf));
     return all;
   }();
@@ -59,12 +59,12 @@ foundFromOneSide(std::size_t members)
   SceneOptions o;
   o.background = Background::None;
   o.density = 20000;
-  const Scene scene = generateScene(things(), {}, o);
+  const Scene scene = generateScene(bottleAndGlass(), {}, o);
   SceneSensing sensing;
   sensing.views.views = ViewSet::One;
   sensing.sensor.noise = 0.0005;
   const Scene seen =
-      sensedScene(scene, senseViews(bodiesOf(scene, things(), {}, o), sensing, o.seed));
+      sensedScene(scene, senseViews(bodiesOf(scene, bottleAndGlass(), {}, o), sensing, o.seed));
   ModelDatabase database;
   for (std::size_t k = 0; k < 2; ++k) {
     HistogramModel m = modelOf(k);
@@ -133,7 +133,7 @@ TEST(ViewTraining, OneSideIsEnoughForModelsWithViewsOnly)
 
 TEST(ViewTraining, TheUnitDoesNotMatter)
 {
-  const auto item = things()[0];
+  const auto item = bottleAndGlass()[0];
   TriangleMesh large = item.mesh();
   for (auto& v : large.vertices)
     for (float& c : v)

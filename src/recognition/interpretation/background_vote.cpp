@@ -12,7 +12,7 @@ namespace {
 constexpr std::uint64_t kLongStream = 0x6c6f6e67ULL;
 constexpr std::uint64_t kLongDraws = 200000;
 constexpr float kFewestLongPairs = 2000; ///< a bin of 1 % then has 20
-constexpr std::size_t kBlock = 256;      ///< cells judged at a time by one thread
+constexpr std::size_t kVoteBlock = 256;  ///< cells judged at a time by one thread
 constexpr std::size_t kPartners = 4;     ///< partners in reach for each that is asked
 constexpr std::uint32_t kTypicalBalls = 65;
 constexpr double kSharedReach = 0.1; ///< share of the radius within which cells share partners
@@ -143,22 +143,22 @@ vote(const SceneData& scene, const LinearOctree& octree, double radius, double s
   const FeatureTable table(scene.models.resolution, radius * scene.source.scale(), is_background);
   const LinearOctree thin = thinned(scene, octree, radius, p.vote_pairs);
   std::vector<char> background(n, 0);
-  parallelFor(
-      (octree.size() + kBlock - 1) / kBlock, p.steps.threads, [&](std::size_t block, unsigned) {
-        const auto begin = static_cast<std::uint32_t>(block * kBlock);
-        const auto end =
-            static_cast<std::uint32_t>(std::min<std::size_t>(octree.size(), begin + kBlock));
-        PairRows rows = rowsOf(scene, octree, begin, end, thin, radius, p.vote_pairs);
-        PairFeatures features;
-        featuresOfRows(scene.source, scene.models.resolution, rows, features);
-        std::size_t pair = 0;
-        for (std::size_t row = 0; row < rows.surflet.size(); ++row) {
-          unsigned votes = 0;
-          for (const std::size_t last = pair + rows.count[row]; pair < last; ++pair)
-            votes += table(features.angular_bin[pair], features.delta_squared[pair]);
-          background[rows.surflet[row]] = votes > 0 && votes >= share * p.vote_pairs;
-        }
-      });
+  parallelFor((octree.size() + kVoteBlock - 1) / kVoteBlock, p.steps.threads,
+              [&](std::size_t block, unsigned) {
+                const auto begin = static_cast<std::uint32_t>(block * kVoteBlock);
+                const auto end = static_cast<std::uint32_t>(
+                    std::min<std::size_t>(octree.size(), begin + kVoteBlock));
+                PairRows rows = rowsOf(scene, octree, begin, end, thin, radius, p.vote_pairs);
+                PairFeatures features;
+                featuresOfRows(scene.source, scene.models.resolution, rows, features);
+                std::size_t pair = 0;
+                for (std::size_t row = 0; row < rows.surflet.size(); ++row) {
+                  unsigned votes = 0;
+                  for (const std::size_t last = pair + rows.count[row]; pair < last; ++pair)
+                    votes += table(features.angular_bin[pair], features.delta_squared[pair]);
+                  background[rows.surflet[row]] = votes > 0 && votes >= share * p.vote_pairs;
+                }
+              });
   return background;
 }
 

@@ -15,7 +15,7 @@ namespace {
 /** \brief cos 45 degrees, about. What stands on a table has its lowest cells near the table's, but
  * they look sideways or down. */
 constexpr float kLeastCosine = 0.7f;
-constexpr std::size_t kBlock = 256; ///< cells asked at a time by one thread
+constexpr std::size_t kExclusionBlock = 256; ///< cells asked at a time by one thread
 
 bool
 haveLikeNormals(const SurfletSet& a, std::size_t i, const SurfletSet& b, std::size_t j)
@@ -51,10 +51,10 @@ EmptyScene::away(const SurfletSet& set, const std::vector<std::uint32_t>& indice
 {
   std::vector<char> is_held(indices.size());
   std::vector<std::vector<PlaceRange>> memory(resolveThreads(threads));
-  const std::size_t blocks = (indices.size() + kBlock - 1) / kBlock;
+  const std::size_t blocks = (indices.size() + kExclusionBlock - 1) / kExclusionBlock;
   parallelFor(blocks, threads, [&](std::size_t block, unsigned worker) {
-    const std::size_t end = std::min(indices.size(), (block + 1) * kBlock);
-    for (std::size_t k = block * kBlock; k < end; ++k)
+    const std::size_t end = std::min(indices.size(), (block + 1) * kExclusionBlock);
+    for (std::size_t k = block * kExclusionBlock; k < end; ++k)
       is_held[k] = holds(set, indices[k], memory[worker]) ? 1 : 0;
   });
   std::vector<std::uint32_t> away;

@@ -1,21 +1,15 @@
 #include "steps.h"
 
+#include "core/require.h"
+
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
 constexpr std::uint64_t kRefineStream = std::uint64_t{1} << 40;
-
-void
-require(bool holds, const char* what)
-{
-  if (!holds)
-    throw std::invalid_argument(std::string("pcl_surflet: ") + what);
-}
 
 } // namespace
 

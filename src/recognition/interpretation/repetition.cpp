@@ -12,7 +12,7 @@ namespace interpretation {
 namespace {
 
 constexpr std::uint64_t kDrawStream = 0x726570656174ULL;
-constexpr std::uint64_t kRefineStream = std::uint64_t{3} << 40;
+constexpr std::uint64_t kRepeatStream = std::uint64_t{3} << 40;
 
 /** \brief Does the feature suit the model as in step 1, regardless of other objects? */
 bool
@@ -91,7 +91,7 @@ repeatClustering(const SceneData& scene, const DissertationParameters& parameter
       again.surflets =
           redraw(scene, k, d.threshold, region, parameters.repetition.pairs_per_surflet,
                  CounterRandom(parameters.seed, kDrawStream).at(stream));
-      refineSeed(scene, k, kRefineStream + stream, parameters, again); // step 3
+      refineSeed(scene, k, kRepeatStream + stream, parameters, again); // step 3
       const std::size_t before = c.surflets.size();
       c.surflets = united(c.surflets, again.surflets);
       d.regained += c.surflets.size() - before;

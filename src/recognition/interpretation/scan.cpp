@@ -16,7 +16,7 @@ constexpr double kRadiusClass = 1.3;
 constexpr double kSamePlace = 0.4;
 /** \brief A rough segment needs this intersection. Few pairs make it lower than a fit: 0.5 to 0.7
  * where the model is right, 0.2 to 0.4 where it is not. */
-constexpr double kLeastRoughFit = 0.35;
+constexpr double kLeastScanFit = 0.35;
 /** \brief The same at first, with half as many cells and a quarter of the pairs. */
 constexpr double kLeastFirstFit = 0.2;
 constexpr double kScanBegins = 0.1, kScanEnds = 0.5; ///< shares of the work, about
@@ -152,7 +152,7 @@ scan(Explaining& work)
       drawSample(work.scene, work.open, s.centre, radius, work.parameters.scan_cells, memory);
       s = segment(work.scene, s.model, s.centre, radius, memory);
     });
-    found = best(work, std::move(found), kLeastRoughFit);
+    found = best(work, std::move(found), kLeastScanFit);
   }
   for (const auto& s : found)
     ++work.diagnosticsOf(s.model).promising;

@@ -13,8 +13,6 @@ namespace pcl_surflet {
 namespace interpretation {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
-
 /** \brief Fills SceneModel::support and what belongs to it. */
 void
 fillSupport(const Histogram& penalised, const std::vector<float>& chance, double scale,
@@ -44,7 +42,7 @@ countedChanceAngles(const Resolution& resolution)
   constexpr std::uint32_t kSurflets = 700; // 245,000 pairs: seven per cent for an average bin
   CounterRandom random(1);
   const auto direction = [&]() -> std::array<float, 3> {
-    const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * kPi),
+    const double z = random.uniform(-1, 1), phi = random.uniform(0, 2 * M_PI),
                  r = std::sqrt(1 - z * z);
     return {static_cast<float>(r * std::cos(phi)), static_cast<float>(r * std::sin(phi)),
             static_cast<float>(z)};

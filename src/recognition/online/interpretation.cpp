@@ -1,17 +1,11 @@
 #include "state.h"
 
+#include "core/require.h"
+
 #include <cmath>
-#include <stdexcept>
 
 namespace pcl_surflet {
 namespace {
-
-void
-require(bool holds, const char* what)
-{
-  if (!holds)
-    throw std::invalid_argument(std::string("pcl_surflet: ") + what);
-}
 
 void
 check(const OnlineParameters& p)

@@ -312,7 +312,7 @@ estimatePose(const SurfletSet& given, const PoseModel& pose_model, const PosePar
   const ModelData& model = pose_model.data();
   const SurfletSet points = usable(thinned(given, kMostPoints));
   const SceneFrame frame = frameAround(points, model.diameter);
-  Cluster cluster;
+  pose::Cluster cluster;
   cluster.cells = cellsAround(points, frame, 2, p.final_cells);
   cluster.beside = cellsAround(usable(thinned(beside, kMostPoints)), frame, 1, p.final_cells);
   cluster.unseen_weight = p.unseen_weight;

@@ -8,7 +8,7 @@ namespace pcl_surflet {
 namespace pose {
 namespace {
 
-constexpr std::size_t kDirections = 128;
+constexpr std::size_t kViewDirections = 128;
 constexpr double kPixel = 0.03;
 /** \brief What lies so far behind the front of its pixel is hidden; a slope within the pixel
  * explains less. */
@@ -19,7 +19,7 @@ constexpr double kFacing = 0.4; ///< cosine: what is seen at a sharper angle sen
 Vector3
 spiralDirection(std::size_t k)
 {
-  const double z = 1 - (2.0 * static_cast<double>(k) + 1) / kDirections;
+  const double z = 1 - (2.0 * static_cast<double>(k) + 1) / kViewDirections;
   const double angle = static_cast<double>(k) * M_PI * (3 - std::sqrt(5.0));
   const double r = std::sqrt(1 - z * z);
   return {r * std::cos(angle), r * std::sin(angle), z};
@@ -65,7 +65,7 @@ private:
 
 Visibility::Visibility(const SurfletSet& surface, const SurfletSet& cells)
 {
-  for (std::size_t k = 0; k < kDirections; ++k) {
+  for (std::size_t k = 0; k < kViewDirections; ++k) {
     const Vector3 direction = spiralDirection(k);
     FrontDepth front(direction);
     for (std::size_t i = 0; i < surface.size(); ++i)
