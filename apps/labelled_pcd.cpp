@@ -1,8 +1,14 @@
 #include "labelled_pcd.h"
 
 #include "app_common.h"
+#include "pcl_adapters/pcd_content.h"
 
+#include <pcl/common/io.h>
+
+#include <algorithm>
+#include <array>
 #include <cstring>
+#include <limits>
 
 namespace pcl_surflet {
 namespace apps {
@@ -39,7 +45,105 @@ viewpointOf(const SensorFrame& frame)
   return text + number(q[0]) + " " + number(q[1]) + " " + number(q[2]) + " " + number(q[3]);
 }
 
+/** \brief What we say of a point: a normal, a label and an instance, one after the other. */
+struct PointResult {
+  float normal[3];
+  std::uint32_t label, instance;
+};
+
+pcl::PCLPointField
+field(const char* name, std::uint8_t type)
+{
+  pcl::PCLPointField f;
+  f.name = name;
+  f.datatype = type;
+  f.count = 1;
+  return f;
+}
+
+/** \brief The fields of PointResult. */
+std::array<pcl::PCLPointField, 5>
+resultFields()
+{
+  constexpr auto kFloat = pcl::PCLPointField::FLOAT32, kCount = pcl::PCLPointField::UINT32;
+  return {field("normal_x", kFloat), field("normal_y", kFloat), field("normal_z", kFloat),
+          field("label", kCount), field("instance", kCount)};
+}
+
+std::size_t
+bytesOf(const pcl::PCLPointField& f)
+{
+  return static_cast<std::size_t>(pcl::getFieldSize(f.datatype)) * std::max(f.count, 1U);
+}
+
+/** \brief The fields of a cloud but padding and those that results replace. */
+std::vector<pcl::PCLPointField>
+keptFields(const pcl::PCLPointCloud2& cloud)
+{
+  const auto results = resultFields();
+  std::vector<pcl::PCLPointField> kept;
+  for (const auto& f : cloud.fields)
+    if (f.name != "_" && std::none_of(results.begin(), results.end(),
+                                      [&](const auto& r) { return r.name == f.name; }))
+      kept.push_back(f);
+  return kept;
+}
+
+std::vector<PointResult>
+resultsOf(const SurfaceFile& file, const PointLabels& labels)
+{
+  constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+  std::vector<PointResult> results(file.points->size(), {{kNone, kNone, kNone}, 0, 0});
+  for (std::size_t k = 0; k < file.surflets.size(); ++k) {
+    const Surflet s = file.surflets[k];
+    results[static_cast<std::size_t>(file.indices[k])] = {
+        {s.nx, s.ny, s.nz}, labels.labels[k], labels.instances[k]};
+  }
+  return results;
+}
+
+/** \brief A cloud like \p in with these fields and those of results, and room for its points. */
+pcl::PCLPointCloud2
+emptyLike(const pcl::PCLPointCloud2& in, const std::vector<pcl::PCLPointField>& kept)
+{
+  pcl::PCLPointCloud2 out;
+  out.width = in.width;
+  out.height = in.height;
+  out.is_dense = in.is_dense;
+  out.fields = kept;
+  for (const auto& f : resultFields())
+    out.fields.push_back(f);
+  for (auto& f : out.fields) {
+    f.offset = out.point_step;
+    out.point_step += static_cast<std::uint32_t>(bytesOf(f));
+  }
+  out.row_step = out.point_step * out.width;
+  out.data.resize(std::size_t{out.point_step} * in.width * in.height);
+  return out;
+}
+
 } // namespace
+
+std::string
+asPcd(const SurfaceFile& file, const PointLabels& labels)
+{
+  const auto& in = file.points->cloud;
+  const auto kept = keptFields(in);
+  SourcePoints out;
+  out.origin = file.points->origin;
+  out.orientation = file.points->orientation;
+  out.cloud = emptyLike(in, kept);
+  const auto results = resultsOf(file, labels);
+  auto* to = out.cloud.data.data();
+  for (std::size_t i = 0; i < results.size(); ++i) {
+    const auto* from = in.data.data() + i * in.point_step;
+    for (const auto& f : kept)
+      to = std::copy_n(from + f.offset, bytesOf(f), to);
+    std::memcpy(to, &results[i], sizeof results[i]);
+    to += sizeof results[i];
+  }
+  return detail::binaryPcd(out);
+}
 
 std::string
 asPcd(const SurfletSet& set, const PointLabels* labels)

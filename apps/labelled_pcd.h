@@ -3,6 +3,7 @@
 #pragma once
 
 #include "pcl_surflet/sensed_scene.h"
+#include "pcl_surflet/surface_file.h"
 
 #include <cstdint>
 #include <string>
@@ -20,6 +21,12 @@ struct PointLabels {
 /** \brief Binary PCD with x y z normal_x normal_y normal_z and, unless null, label and instance.
  * \p labels are as many as \p set. */
 std::string asPcd(const SurfletSet& set, const PointLabels* labels);
+
+/** \brief Binary PCD of all points of a file that has been read with keep_points: their fields,
+ * rows, columns and VIEWPOINT, and normal_x normal_y normal_z (NaN where there is none), label and
+ * instance in place of any fields of these names.
+ * \param[in] labels as many as the file's surflets; other points have label and instance 0 */
+std::string asPcd(const SurfaceFile& file, const PointLabels& labels);
 
 /** \brief Organised binary PCD with the fields above, in the sensor's frame; VIEWPOINT is the
  * sensor's pose in the scene. NaN where nothing returned. */

@@ -43,7 +43,7 @@ describe(const std::string& path, const Options& o)
 std::string
 asPcd(const pcl::PointCloud<SurfletPairHistogram625>& descriptor)
 {
-  detail::PcdContent content;
+  SourcePoints content;
   pcl::toPCLPointCloud2(descriptor, content.cloud);
   return detail::binaryPcd(content);
 }

@@ -43,10 +43,10 @@ requireField(const std::string& path, const pcl::PCLPointCloud2& cloud, const st
            "it has no field " + name + " of type FLOAT32 (TYPE F, SIZE 4, COUNT 1); " + remedy);
 }
 
-detail::PcdContent
+SourcePoints
 readOriented(const std::string& path)
 {
-  detail::PcdContent content;
+  SourcePoints content;
   if (const auto problem = detail::readPcd(path, content); !problem.empty())
     refuse(path, problem + "; give a PCD file of oriented points");
   for (const char* name : {"x", "y", "z"})
@@ -61,7 +61,7 @@ readOriented(const std::string& path)
 
 /** \brief Puts the mean surflets in place of the points of \p content; the sensor stays. */
 Counts
-reduce(const Options& o, detail::PcdContent& content)
+reduce(const Options& o, SourcePoints& content)
 {
   Counts counts;
   counts.input = content.size();

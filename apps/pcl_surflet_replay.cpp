@@ -32,7 +32,7 @@ struct Options {
 pcl::PointCloud<pcl::PointNormal>
 readScan(const std::string& path)
 {
-  detail::PcdContent content;
+  SourcePoints content;
   if (const auto problem = detail::readPcd(path, content); !problem.empty())
     throw DataError(path + ": " + problem + "; give a scan in PCD");
   for (const char* name : {"x", "y", "z", "normal_x", "normal_y", "normal_z"}) {

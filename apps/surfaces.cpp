@@ -4,12 +4,14 @@ namespace pcl_surflet {
 namespace apps {
 
 SurfaceFile
-readSurface(const std::string& path, const MissingNormals& normals, std::uint64_t threads)
+readSurface(const std::string& path, const MissingNormals& normals, std::uint64_t threads,
+            bool keep_points)
 {
   SurfaceFileOptions options;
   options.estimate_normals = static_cast<int>(normals.neighbours);
   options.sensor = normals.sensor;
   options.threads = static_cast<unsigned>(threads);
+  options.keep_points = keep_points;
   return loadSurface(path, options);
 }
 

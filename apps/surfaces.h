@@ -18,7 +18,7 @@ namespace apps {
 /** \brief loadSurface() with the values of the options of missing normals and of -threads (0: all).
  * \throws SurfaceFileError */
 SurfaceFile readSurface(const std::string& path, const MissingNormals& normals,
-                        std::uint64_t threads);
+                        std::uint64_t threads, bool keep_points = false);
 
 /** \brief How many points of \p path could not be used; empty if all could. */
 std::string losses(const std::string& path, const SurfaceFile& file);

@@ -32,10 +32,12 @@ addOptions(CommandLine& line, InterpretOptions& o)
              1000000);
   line.real("-min_confidence", "X", "explanation: leaves out what is less sure, default 0.1",
             o.min_confidence, 0, 1);
-  line.text("-out", "OUT.pcd",
-            "the points with usable normals, in their order, labelled: 0 none, else number in the "
-            "database, from 1; one scene only",
-            o.out);
+  line.text(
+      "-out", "OUT.pcd",
+      "the scene with all its points and fields as they are, and normals, label (0 none, else "
+      "number in the database, from 1) and instance (0 none, else which detection); one "
+      "scene only",
+      o.out);
   line.text("-objects_dir", "DIR", "every object by itself as DIR/SCENE_NUMBER_NAME.pcd",
             o.objects_dir);
   line.text("-picture", "OUT.png",

@@ -10,15 +10,16 @@ namespace pcl_surflet {
 namespace apps {
 namespace {
 
-SurfletSet
-surfletsIn(const std::string& path, const InterpretOptions& o, std::vector<std::string>& notes)
+SurfaceFile
+cloudIn(const std::string& path, const InterpretOptions& o, bool keep_points,
+        std::vector<std::string>& notes)
 {
-  SurfaceFile file = readSurface(path, o.normals, o.threads);
+  SurfaceFile file = readSurface(path, o.normals, o.threads, keep_points);
   if (file.mesh)
     throw DataError(path + ": is a mesh; give a cloud with normals");
   if (file.rejected > 0)
     notes.push_back(losses(path, file));
-  return std::move(file.surflets);
+  return file;
 }
 
 /** \brief Instances are numbered in the order of the detections, as the objects' files are. */
@@ -84,13 +85,15 @@ SceneWorker::SceneWorker(const ModelDatabase& database, const InterpretOptions& 
   if (o.planes > 0)
     interpreter_.setBackgroundPlanes(std::vector<BackgroundPlane>(o.planes));
   if (!o.empty.empty())
-    interpreter_.setBackgroundCloud(cloudOf(surfletsIn(o.empty, o, notes)));
+    interpreter_.setBackgroundCloud(cloudOf(cloudIn(o.empty, o, false, notes).surflets));
 }
 
 void
 SceneWorker::interpretInto(const std::string& path, InterpretedScene& out)
 {
-  const SurfletSet scene = surfletsIn(path, o_, out.notes);
+  const bool labelled = !o_.out.empty() || !o_.picture.empty();
+  const SurfaceFile file = cloudIn(path, o_, labelled, out.notes);
+  const SurfletSet& scene = file.surflets;
   const auto cloud = cloudOf(scene);
   interpreter_.setInputCloud(cloud);
   auto found = interpreter_.interpret();
@@ -106,10 +109,9 @@ SceneWorker::interpretInto(const std::string& path, InterpretedScene& out)
     out.steps = stepsText(o_.method, diagnostics);
   if (!o_.objects_dir.empty())
     out.objects = objectFiles(path, scene, found);
-  if (o_.out.empty() && o_.picture.empty())
+  if (!labelled)
     return;
-  const PointLabels labels = labelsOf(scene.size(), found);
-  out.labelled = asPcd(scene, &labels);
+  out.labelled = asPcd(file, labelsOf(scene.size(), found));
   const SurfletSet surfaces = o_.pose.surfaces(found, poses);
   if (!o_.picture.empty() && !surfaces.empty())
     out.posed = asPcd(surfaces, nullptr);

@@ -1,12 +1,11 @@
 #include "labelled_scene.h"
 
 #include "app_common.h"
+#include "pcl_adapters/cloud_columns.h"
 #include "pcl_adapters/pcd_content.h"
 
 #include <pcl/common/point_tests.h>
-#include <pcl/conversions.h>
 
-#include <algorithm>
 #include <cstring>
 
 namespace pcl_surflet {
@@ -31,12 +30,15 @@ numbersOf(const pcl::PCLPointCloud2& cloud, std::size_t points, const std::strin
   return out;
 }
 
-bool
-hasField(const pcl::PCLPointCloud2& cloud, const char* name)
+/** \brief The values of three fields at a point; zeros without them. */
+Eigen::Vector3f
+vectorAt(const pcl::PCLPointCloud2& cloud, std::size_t point, const detail::Columns& fields)
 {
-  return std::any_of(cloud.fields.begin(), cloud.fields.end(), [&](const auto& field) {
-    return field.name == name && field.datatype == pcl::PCLPointField::FLOAT32;
-  });
+  Eigen::Vector3f out = Eigen::Vector3f::Zero();
+  for (Eigen::Index k = 0; k < 3; ++k)
+    if (const auto* field = fields[static_cast<std::size_t>(k)])
+      out[k] = detail::valueAt(cloud, point, *field);
+  return out;
 }
 
 } // namespace
@@ -44,23 +46,27 @@ hasField(const pcl::PCLPointCloud2& cloud, const char* name)
 LabelledScene
 readLabelledScene(const std::string& path)
 {
-  detail::PcdContent content;
+  SourcePoints content;
   if (const auto problem = detail::readPcd(path, content); !problem.empty())
     throw DataError("cannot use '" + path + "': " + problem +
                     "; give a PCD file, such as pcl_surflet_interpret -out writes");
-  for (const char* axis : {"x", "y", "z"})
-    if (!hasField(content.cloud, axis))
-      throw DataError("cannot use '" + path +
-                      "': it has no fields x, y, z of type F; give a cloud");
-  pcl::PointCloud<pcl::PointXYZLNormal> all;
-  pcl::fromPCLPointCloud2(content.cloud, all);
-  auto things = numbersOf(content.cloud, all.size(), "instance");
+  const auto& cloud = content.cloud;
+  const auto xyz = detail::columns(cloud, {"x", "y", "z"});
+  const auto n = detail::columns(cloud, {"normal_x", "normal_y", "normal_z"});
+  if (xyz[0] == nullptr)
+    throw DataError("cannot use '" + path + "': it has no fields x, y, z of type F; give a cloud");
+  const auto labels = numbersOf(cloud, content.size(), "label");
+  const auto things = numbersOf(cloud, content.size(), "instance");
   LabelledScene scene;
-  for (std::size_t i = 0; i < all.size(); ++i) {
-    if (!pcl::isXYZFinite(all[i]))
+  for (std::size_t i = 0; i < content.size(); ++i) {
+    pcl::PointXYZLNormal p;
+    p.getVector3fMap() = vectorAt(cloud, i, xyz);
+    p.getNormalVector3fMap() = vectorAt(cloud, i, n);
+    p.label = labels.empty() ? 0 : labels[i];
+    if (!pcl::isXYZFinite(p))
       continue;
-    scene.points.push_back(all[i]);
-    scene.things.push_back(things.empty() ? all[i].label : things[i]);
+    scene.points.push_back(p);
+    scene.things.push_back(things.empty() ? p.label : things[i]);
   }
   if (scene.points.empty())
     throw DataError("cannot use '" + path + "': it has no finite point; give a cloud");

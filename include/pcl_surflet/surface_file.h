@@ -5,6 +5,12 @@
 #include "pcl_surflet/core/surflet_set.h"
 #include "pcl_surflet/core/triangle_mesh.h"
 
+#include <pcl/PCLPointCloud2.h>
+#include <pcl/types.h>
+
+#include <Eigen/Geometry>
+
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -18,11 +24,26 @@ public:
   ~SurfaceFileError() override;
 };
 
+/** \brief All points of a file, fields, rows and columns as they were. */
+struct SourcePoints {
+  pcl::PCLPointCloud2 cloud;
+  Eigen::Vector4f origin = Eigen::Vector4f::Zero(); ///< of the sensor: the VIEWPOINT of a PCD
+  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+
+  std::size_t
+  size() const
+  {
+    return std::size_t{cloud.width} * cloud.height;
+  }
+};
+
 /** \brief Content of a file: a mesh, or oriented points. */
 struct SurfaceFile {
   std::optional<TriangleMesh> mesh; ///< set if the file has faces
   SurfletSet surflets;              ///< set otherwise
+  pcl::Indices indices;             ///< which point of the file each surflet is
   std::size_t rejected = 0;         ///< points left out: not finite or without usable normal
+  std::shared_ptr<const SourcePoints> points; ///< set by SurfaceFileOptions::keep_points
 };
 
 /** \brief How loadSurface() reads. */
@@ -37,6 +58,9 @@ struct SurfaceFileOptions {
    * {0, 0, 0}. */
   std::optional<std::array<double, 3>> sensor;
   unsigned threads = 0; ///< for normal estimation; 0: all
+  /** \brief Keeps all points of a cloud, so that results can be written beside what the file says
+   * of them: of a PCD every field, of a PLY x, y and z. Takes as much memory again. */
+  bool keep_points = false;
 };
 
 /** \brief Loads \p path by its ending (pcd, ply, obj, stl, off, any case).

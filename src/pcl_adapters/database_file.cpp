@@ -287,7 +287,7 @@ modelsOf(const TableReader& reader, std::size_t rows, PenaltyParameters& penalty
 pcl::PCLPointCloud2
 readTable(const std::string& path)
 {
-  detail::PcdContent content;
+  SourcePoints content;
   if (const auto problem = detail::readPcd(path, content); !problem.empty())
     throw DatabaseFileError("cannot read the database '" + path + "': " + problem);
   return std::move(content.cloud);
@@ -300,7 +300,7 @@ saveDatabase(const ModelDatabase& database, const std::string& path)
 {
   if (database.empty())
     throw DatabaseFileError("cannot write the database '" + path + "': it has no models");
-  detail::PcdContent content;
+  SourcePoints content;
   auto& table = content.cloud;
   table = emptyTable(static_cast<std::uint32_t>(database.resolution().bins()));
   for (std::size_t m = 0; m < database.size(); ++m)

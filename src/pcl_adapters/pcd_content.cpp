@@ -42,7 +42,7 @@ private:
 bool
 understands(pcl::PCDReader& reader, const std::string& path, const PcdClaim& claim)
 {
-  PcdContent content;
+  SourcePoints content;
   int version = 0, kind = 0;
   unsigned end = 0;
   if (reader.readHeader(path, content.cloud, content.origin, content.orientation, version, kind,
@@ -56,7 +56,7 @@ understands(pcl::PCDReader& reader, const std::string& path, const PcdClaim& cla
 } // namespace
 
 std::string
-readPcd(const std::string& path, PcdContent& content)
+readPcd(const std::string& path, SourcePoints& content)
 {
   PcdClaim claim;
   if (auto problem = pcdProblem(path, claim); !problem.empty())
@@ -82,7 +82,7 @@ readPcd(const std::string& path, PcdContent& content)
 }
 
 std::string
-binaryPcd(const PcdContent& content)
+binaryPcd(const SourcePoints& content)
 {
   const auto& cloud = content.cloud;
   std::string file =

@@ -2,22 +2,22 @@
 
 #include "core/file_content.h"
 #include "core/mesh_readers.h"
+#include "pcl_adapters/cloud_columns.h"
 #include "pcl_adapters/pcd_content.h"
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/sensed_surface.h"
 
+#include <pcl/conversions.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
 
 #include <algorithm>
-#include <array>
-#include <cstring>
 #include <filesystem>
 
 namespace pcl_surflet {
 namespace {
 
-using Columns = std::array<const pcl::PCLPointField*, 3>;
+using detail::Columns, detail::columns, detail::valueAt;
 
 [[noreturn]] void
 refuse(const std::string& path, const std::string& cause, const std::string& remedy)
@@ -45,8 +45,19 @@ ofPoints(const std::string& path, ConvertedSurflets converted)
            "the apps)");
   SurfaceFile file;
   file.surflets = std::move(converted.surflets);
+  file.indices = std::move(converted.indices);
   file.rejected = converted.rejected;
   return file;
+}
+
+/** \brief Adds the point \p s of index \p i, if it can be used. */
+void
+append(const Surflet& s, std::size_t i, ConvertedSurflets& converted)
+{
+  if (converted.surflets.appendChecked(s))
+    converted.indices.push_back(static_cast<pcl::index_t>(i));
+  else
+    ++converted.rejected;
 }
 
 SurfaceFile
@@ -59,45 +70,12 @@ ofMesh(const std::string& path, TriangleMesh mesh)
   return file;
 }
 
-/** \brief The fields \p names if all are single floating-point numbers within a point, else null
- * pointers. */
-Columns
-columns(const pcl::PCLPointCloud2& cloud, const std::array<const char*, 3>& names)
-{
-  Columns found{};
-  for (std::size_t k = 0; k < names.size(); ++k)
-    for (const auto& field : cloud.fields) {
-      const bool is_float = field.datatype == pcl::PCLPointField::FLOAT32;
-      const bool is_double = field.datatype == pcl::PCLPointField::FLOAT64;
-      const std::size_t size = is_float ? sizeof(float) : sizeof(double);
-      if (field.name == names[k] && (is_float || is_double) && field.count == 1 &&
-          field.offset + size <= cloud.point_step)
-        found[k] = &field;
-    }
-  const bool complete = found[0] != nullptr && found[1] != nullptr && found[2] != nullptr;
-  return complete ? found : Columns{};
-}
-
-float
-valueAt(const pcl::PCLPointCloud2& cloud, std::size_t point, const pcl::PCLPointField& field)
-{
-  const auto* from = cloud.data.data() + point * cloud.point_step + field.offset;
-  if (field.datatype == pcl::PCLPointField::FLOAT32) {
-    float value;
-    std::memcpy(&value, from, sizeof value);
-    return value;
-  }
-  double value;
-  std::memcpy(&value, from, sizeof value);
-  return static_cast<float>(value);
-}
-
-detail::PcdContent
+SourcePoints
 readCloud(const std::string& path)
 {
   constexpr const char* kRemedy = "export it again as PCD";
   detail::checkedFileSize(path);
-  detail::PcdContent raw;
+  SourcePoints raw;
   if (const auto problem = detail::readPcd(path, raw); !problem.empty())
     refuse(path, problem, kRemedy);
   if (raw.size() == 0)
@@ -106,7 +84,7 @@ readCloud(const std::string& path)
 }
 
 pcl::PointCloud<pcl::PointXYZ>
-coordinates(const detail::PcdContent& raw, const Columns& xyz)
+coordinates(const SourcePoints& raw, const Columns& xyz)
 {
   pcl::PointCloud<pcl::PointXYZ> out(raw.cloud.width, raw.cloud.height);
   out.is_dense = false; // PCL then looks for itself, whatever the file says
@@ -134,9 +112,8 @@ withEstimatedNormals(const std::string& path, const pcl::PointCloud<pcl::PointXY
 }
 
 SurfaceFile
-loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
+surfaceOf(const std::string& path, const SourcePoints& raw, const SurfaceFileOptions& options)
 {
-  const detail::PcdContent raw = readCloud(path);
   const Columns xyz = columns(raw.cloud, {"x", "y", "z"});
   if (xyz[0] == nullptr)
     refuse(path, "it has no fields x, y, z of type F", "give a cloud of points");
@@ -145,27 +122,47 @@ loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
     return withEstimatedNormals(path, coordinates(raw, xyz), raw.origin.head<3>(), options);
   ConvertedSurflets converted;
   for (std::size_t i = 0; i < raw.size(); ++i)
-    converted.rejected += !converted.surflets.appendChecked(
-        {valueAt(raw.cloud, i, *xyz[0]), valueAt(raw.cloud, i, *xyz[1]),
-         valueAt(raw.cloud, i, *xyz[2]), valueAt(raw.cloud, i, *n[0]), valueAt(raw.cloud, i, *n[1]),
-         valueAt(raw.cloud, i, *n[2])});
+    append({valueAt(raw.cloud, i, *xyz[0]), valueAt(raw.cloud, i, *xyz[1]),
+            valueAt(raw.cloud, i, *xyz[2]), valueAt(raw.cloud, i, *n[0]),
+            valueAt(raw.cloud, i, *n[1]), valueAt(raw.cloud, i, *n[2])},
+           i, converted);
   if (converted.surflets.empty() && options.estimate_normals > 0) // fields that nobody filled
     return withEstimatedNormals(path, coordinates(raw, xyz), raw.origin.head<3>(), options);
   return ofPoints(path, std::move(converted));
 }
 
 SurfaceFile
-loadPlySurface(const std::string& path, const SurfaceFileOptions& options)
+loadPcdSurface(const std::string& path, const SurfaceFileOptions& options)
 {
-  detail::PlyContent content = detail::loadPly(path);
-  if (!content.mesh.triangles.empty())
-    return ofMesh(path, std::move(content.mesh));
+  const auto raw = std::make_shared<const SourcePoints>(readCloud(path));
+  SurfaceFile file = surfaceOf(path, *raw, options);
+  if (options.keep_points)
+    file.points = raw;
+  return file;
+}
+
+/** \brief The vertices as a cloud. Other properties of a PLY are not read. */
+std::shared_ptr<const SourcePoints>
+verticesOf(const detail::PlyContent& content)
+{
+  pcl::PointCloud<pcl::PointXYZ> points;
+  for (const auto& p : content.mesh.vertices)
+    points.push_back({p[0], p[1], p[2]});
+  const auto out = std::make_shared<SourcePoints>();
+  pcl::toPCLPointCloud2(points, out->cloud);
+  return out;
+}
+
+SurfaceFile
+surfaceOf(const std::string& path, const detail::PlyContent& content,
+          const SurfaceFileOptions& options)
+{
   const auto& vertices = content.mesh.vertices;
   ConvertedSurflets converted;
   for (std::size_t i = 0; i < content.normals.size(); ++i) {
     const auto& p = vertices[i];
     const auto& n = content.normals[i];
-    converted.rejected += !converted.surflets.appendChecked({p[0], p[1], p[2], n[0], n[1], n[2]});
+    append({p[0], p[1], p[2], n[0], n[1], n[2]}, i, converted);
   }
   const bool none_usable = converted.surflets.empty() && options.estimate_normals > 0;
   if (content.normals.empty() || none_usable) {
@@ -176,6 +173,18 @@ loadPlySurface(const std::string& path, const SurfaceFileOptions& options)
     return withEstimatedNormals(path, points, Eigen::Vector3f::Zero(), options);
   }
   return ofPoints(path, std::move(converted));
+}
+
+SurfaceFile
+loadPlySurface(const std::string& path, const SurfaceFileOptions& options)
+{
+  detail::PlyContent content = detail::loadPly(path);
+  if (!content.mesh.triangles.empty())
+    return ofMesh(path, std::move(content.mesh));
+  SurfaceFile file = surfaceOf(path, content, options);
+  if (options.keep_points)
+    file.points = verticesOf(content);
+  return file;
 }
 
 std::string

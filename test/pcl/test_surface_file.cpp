@@ -260,6 +260,42 @@ TEST_F(SurfaceFiles, PlyPointsWithNormals)
   EXPECT_EQ(surfletsOf(file, 10, 1).size(), 2u);
 }
 
+TEST_F(SurfaceFiles, SurfletsKnowTheirPoint)
+{
+  const auto cloud = someCloud();
+  pcl::PCDWriter().writeBinary(path("normals.pcd"), cloud);
+  pcl::PointCloud<pcl::PointXYZ> depth(40, 30);
+  for (std::size_t i = 0; i < depth.size(); ++i)
+    depth[i] = {(static_cast<float>(i % 40) - 20) / 40, (static_cast<float>(i / 40) - 15) / 40, 2};
+  depth[615].x = NAN;
+  depth.is_dense = false;
+  pcl::PCDWriter().writeBinary(path("depth.pcd"), depth);
+  test::writeFile(path("points.ply"),
+                  plyHeader("ascii", "element vertex 3\n" + kPlyPoint + kPlyNormal) +
+                      "nan 0 0 0 1 0\n1 2 3 0 0 2\n4 5 6 0 1 0\n");
+  SurfaceFileOptions with_points, estimated;
+  with_points.keep_points = estimated.keep_points = true;
+  estimated.estimate_normals = 8;
+  for (const auto& [name, options] :
+       {std::pair{"normals.pcd", with_points}, std::pair{"depth.pcd", with_points},
+        std::pair{"depth.pcd", estimated}, std::pair{"points.ply", with_points}}) {
+    const SurfaceFile file = loadSurface(path(name), options);
+    EXPECT_EQ(loadSurface(path(name)).points, nullptr);
+    ASSERT_NE(file.points, nullptr) << name;
+    pcl::PointCloud<pcl::PointXYZ> points;
+    pcl::fromPCLPointCloud2(file.points->cloud, points);
+    EXPECT_EQ(points.size(), file.surflets.size() + file.rejected) << name;
+    ASSERT_EQ(file.indices.size(), file.surflets.size()) << name;
+    EXPECT_GT(file.rejected, 0u) << name;
+    for (std::size_t k = 0; k < file.surflets.size(); ++k) {
+      const auto& p = points[static_cast<std::size_t>(file.indices[k])];
+      ASSERT_EQ(p.x, file.surflets.x[k]) << name;
+      ASSERT_EQ(p.y, file.surflets.y[k]) << name;
+      ASSERT_EQ(p.z, file.surflets.z[k]) << name;
+    }
+  }
+}
+
 TEST_F(SurfaceFiles, MeshesOfEveryKind)
 {
   expectTetrahedron(load("le.ply", binaryPly(false)));
