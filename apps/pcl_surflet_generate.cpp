@@ -172,7 +172,7 @@ generate(int argc, char** argv)
   CommandLine line(kProgram, "ITEM...",
                    "Makes a labelled scene of objects on a background. ITEM is the name of a shape "
                    "(see pcl_surflet_generate_shape)\nor FILE[:DIAMETER[:UP]], a mesh, its "
-                   "diameter in the scene and which of its axes (x, y, z) points up.");
+                   "diameter in the scene and which of its axes (x, y, z, -x, -y, -z) points up.");
   addOutputs(line, job.out);
   addContents(line, contents);
   addArrangement(line, o);

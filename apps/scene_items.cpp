@@ -3,6 +3,7 @@
 #include "pcl_surflet/core/conditions.h"
 #include "pcl_surflet/core/mesh_file.h"
 #include "pcl_surflet/surface_file.h"
+#include "up_axis.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +12,6 @@
 namespace pcl_surflet {
 namespace apps {
 namespace {
-
-/** \brief The mesh turned so that \p axis becomes z. */
-TriangleMesh
-turnedUp(TriangleMesh mesh, const std::string& axis)
-{
-  for (auto& p : mesh.vertices)
-    if (axis == "y") // (x, y, z) -> (x, -z, y)
-      p = {p[0], -p[2], p[1]};
-    else if (axis == "x") // -> (-z, y, x)
-      p = {-p[2], p[1], p[0]};
-  return mesh;
-}
 
 /** \brief SHAPE or FILE[:DIAMETER[:UP]]: scaled and upright. */
 SceneItem
@@ -36,14 +25,17 @@ itemOf(const std::string& text)
                        "its name alone, or a mesh file");
     return sceneItem(spec[0], *shape);
   }
-  if (spec.size() > 3 || (spec.size() == 3 && spec[2] != "x" && spec[2] != "y" && spec[2] != "z"))
-    throw UsageError("'" + text + "' is not FILE:DIAMETER:UP, where UP is x, y or z");
+  const UpAxis* up = upAxis(spec.size() < 3 ? "z" : spec[2]);
+  if (spec.size() > 3 || up == nullptr)
+    throw UsageError("'" + text + "' is not FILE:DIAMETER:UP, where UP is x, y, z, -x, -y or -z");
   const double diameter =
       spec.size() > 1 ? parseReal("DIAMETER of " + spec[0], spec[1], 1e-6, 1e6) : 0;
   const SurfaceFile file = loadSurface(spec[0]);
   if (!file.mesh)
     throw DataError(spec[0] + ": holds points; give a file with faces, or the name of a shape");
-  const TriangleMesh upright = spec.size() == 3 ? turnedUp(*file.mesh, spec[2]) : *file.mesh;
+  TriangleMesh upright = *file.mesh;
+  for (auto& p : upright.vertices)
+    p = up->turned(p);
   return sceneItem(stemOf(spec[0]), diameter > 0 ? scaledToDiameter(upright, diameter) : upright);
 }
 

@@ -58,6 +58,7 @@ readLabelledScene(const std::string& path)
   const auto labels = numbersOf(cloud, content.size(), "label");
   const auto things = numbersOf(cloud, content.size(), "instance");
   LabelledScene scene;
+  scene.width = cloud.height > 1 ? cloud.width : 0;
   for (std::size_t i = 0; i < content.size(); ++i) {
     pcl::PointXYZLNormal p;
     p.getVector3fMap() = vectorAt(cloud, i, xyz);
@@ -67,6 +68,7 @@ readLabelledScene(const std::string& path)
       continue;
     scene.points.push_back(p);
     scene.things.push_back(things.empty() ? p.label : things[i]);
+    scene.places.push_back(static_cast<std::uint32_t>(i));
   }
   if (scene.points.empty())
     throw DataError("cannot use '" + path + "': it has no finite point; give a cloud");

@@ -16,6 +16,8 @@ namespace apps {
 struct LabelledScene {
   pcl::PointCloud<pcl::PointXYZLNormal> points; ///< label 0: background; normals zero if unknown
   std::vector<std::uint32_t> things; ///< of every point: 0 none, else which thing, from 1
+  std::size_t width = 0;             ///< columns of the file; 0 if it has no rows
+  std::vector<std::uint32_t> places; ///< of every point in the file: column + width * row
 };
 
 /** \brief Reads a PCD with x y z, if it has them normals, label and instance. Without labels all is

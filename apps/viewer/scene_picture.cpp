@@ -225,6 +225,7 @@ fill(const LabelledScene& scene, const Names& names, const PictureOptions& o,
   const auto cloud = coloured(scene, o);
   viewer.setSize(o.width, o.height);
   viewer.setBackgroundColor(1, 1, 1);
+  viewer.setShowFPS(false); // white on white, but over points it showed, and differed every time
   viewer.addPointCloud(cloud, "scene");
   viewer.setPointCloudRenderingProperties(pcl::visualization::PCL_VISUALIZER_POINT_SIZE, o.point,
                                           "scene");

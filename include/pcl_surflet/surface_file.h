@@ -26,10 +26,11 @@ public:
 
 /** \brief All points of a file, fields, rows and columns as they were. */
 struct SourcePoints {
-  pcl::PCLPointCloud2 cloud;
+  pcl::PCLPointCloud2 cloud;                        ///< with at least size() points of data
   Eigen::Vector4f origin = Eigen::Vector4f::Zero(); ///< of the sensor: the VIEWPOINT of a PCD
-  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity();
+  Eigen::Quaternionf orientation = Eigen::Quaternionf::Identity(); ///< of the sensor, likewise
 
+  /** \brief How many points. */
   std::size_t
   size() const
   {

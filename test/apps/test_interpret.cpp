@@ -1,6 +1,7 @@
 // Objects found by pcl_surflet_interpret.
 #include "app_runner.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
@@ -207,6 +208,38 @@ TEST_F(Interpret, DrawsAPictureWithoutADisplay)
   EXPECT_FALSE(drawn("10") == drawn("50")) << "another eye sees something else";
   if (!before.empty())
     setenv("DISPLAY", before.c_str(), 1);
+}
+
+TEST_F(Interpret, CapturesAreDrawnAsTheirCameraSawThem)
+{
+  const auto drawn = [&](const std::string& file, std::vector<std::string> how) {
+    how.insert(how.end(),
+               {"-width", "100", "-height", "80", "-picture", path("v.png"), path(file)});
+    EXPECT_TRUE(ended(run("view", how), 0, {}));
+    return readFile(path("v.png"));
+  };
+  ASSERT_EQ(run("generate", {"-out", path("all.pcd"), "-scans", path("scans"), "-views", "one",
+                             "-pixels", "160x120", "bottle", "torus"})
+                .code,
+            0);
+  const std::string capture = "scans/scan_00.pcd";
+  const std::string as_seen = drawn(capture, {});
+  EXPECT_TRUE(as_seen == drawn(capture, {"-up", "-y", "-azimuth", "-90", "-elevation", "10"}));
+  EXPECT_FALSE(as_seen == drawn(capture, {"-azimuth", "-60"}));
+  EXPECT_FALSE(as_seen == drawn(capture, {"-up", "z"}));
+  EXPECT_TRUE(drawn("s.pcd", {}) ==
+              drawn("s.pcd", {"-up", "z", "-azimuth", "-60", "-elevation", "35"}));
+  // The same image with its last row first is no capture of such a camera.
+  std::string upside_down = readFile(path(capture));
+  const std::size_t begin = upside_down.find("DATA binary\n") + 12, row = 160 * 32;
+  ASSERT_EQ(upside_down.size() - begin, 120 * row);
+  for (std::size_t r = 0; r < 60; ++r)
+    std::swap_ranges(&upside_down[begin + r * row], &upside_down[begin + r * row] + row,
+                     &upside_down[begin + (119 - r) * row]);
+  writeFile(path("turned.pcd"), upside_down);
+  EXPECT_TRUE(drawn("turned.pcd", {}) == drawn("turned.pcd", {"-up", "z"}));
+  EXPECT_TRUE(ended(run("view", {"-up", "up", "-picture", path("v.png"), path("s.pcd")}), 1,
+                    {"-up", "-y", "'up'"}));
 }
 #endif
 
