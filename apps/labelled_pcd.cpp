@@ -76,16 +76,20 @@ bytesOf(const pcl::PCLPointField& f)
   return static_cast<std::size_t>(pcl::getFieldSize(f.datatype)) * std::max(f.count, 1U);
 }
 
-/** \brief The fields of a cloud but padding and those that results replace. */
+/** \brief The fields of a cloud but padding, what is of no type of PCL's (it would be written as of
+ * size 0) and what results replace. */
 std::vector<pcl::PCLPointField>
 keptFields(const pcl::PCLPointCloud2& cloud)
 {
   const auto results = resultFields();
   std::vector<pcl::PCLPointField> kept;
-  for (const auto& f : cloud.fields)
-    if (f.name != "_" && std::none_of(results.begin(), results.end(),
-                                      [&](const auto& r) { return r.name == f.name; }))
+  for (const auto& f : cloud.fields) {
+    const bool is_whole = bytesOf(f) > 0 && f.offset + bytesOf(f) <= cloud.point_step;
+    const bool is_ours = std::any_of(results.begin(), results.end(),
+                                     [&](const auto& r) { return r.name == f.name; });
+    if (f.name != "_" && is_whole && !is_ours)
       kept.push_back(f);
+  }
   return kept;
 }
 

@@ -201,6 +201,19 @@ TEST_F(InterpretOutput, OfPointsWithEstimatedNormals)
   EXPECT_EQ(with_normal, camera_.size() - (camera_.size() + 5) / 11);
 }
 
+TEST_F(InterpretOutput, LeavesOutFieldsOfNoKnownType)
+{
+  std::string odd = asFile(camera_);
+  odd.replace(odd.find("TYPE U"), 6, "TYPE X");
+  writeFile(path("odd.pcd"), odd);
+  ASSERT_TRUE(ended(interpreted("odd.pcd"), 0, {}));
+  const Pcd out(readFile(path("out.pcd")));
+  EXPECT_EQ(out.header.at("FIELDS"), "x y z time normal_x normal_y normal_z label instance");
+  ASSERT_EQ(out.points.size(), camera_.size() * (sizeof(LabelledPoint) - 4));
+  EXPECT_EQ(out.at<float>(0, 0), camera_[0].x);
+  EXPECT_TRUE(ended(run("reduce", {"-leaf", "0.01", path("out.pcd"), path("less.pcd")}), 0, {}));
+}
+
 TEST_F(InterpretOutput, OfAPly)
 {
   std::string ply = "ply\nformat ascii 1.0\nelement vertex " + std::to_string(camera_.size()) +
