@@ -9,6 +9,7 @@
 #   doc       the reference, without a warning; links of the pages; pages of the manual
 #   packages  Debian packages, and lintian over them
 #   address   tests under the address and undefined-behaviour sanitizers (debug build)
+#   programs  the apps under them; without those experiments that only train and measure
 #   races     the quicker of the test programs that start threads, under the thread sanitizer
 #   thread    all of them
 #   memory    readers, files, space and features under valgrind: no error, no leak of ours. It knows no
@@ -16,7 +17,7 @@
 set -uo pipefail
 cd "$(dirname "$0")/.."
 stages=("${@:-}")
-[ -n "${stages[0]}" ] || stages=(format tidy headers doc packages address thread memory)
+[ -n "${stages[0]}" ] || stages=(format tidy headers doc packages address programs thread memory)
 jobs=$(nproc)
 log=$(mktemp -d)
 trap 'rm -rf "$log"' EXIT
@@ -84,12 +85,20 @@ memory() {
     octree_region_search mean_surflet_grid dynamic_space estimation pose_estimator compat
 }
 
+# Open MPI does not free what it has, so leaks of ranks are not looked for.
+programs() {
+  cmake --preset asan -DPCL_SURFLET_BUILD_APPS=ON >/dev/null && cmake --build --preset asan >"$log/build" ||
+    { tail -n 40 "$log/build"; return 1; }
+  build/asan/bin/test_apps --gtest_brief=1 --gtest_filter='-Evaluate*:Experiment*' &&
+    ASAN_OPTIONS=detect_leaks=0 build/asan/bin/test_ranks --gtest_brief=1
+}
+
 scripts/install_dependencies.sh --with-checks || exit 1
 failed=()
 times=()
 for stage in "${stages[@]}"; do
   case $stage in
-    format | tidy | headers | doc | packages | address | races | thread | memory) ;;
+    format | tidy | headers | doc | packages | address | programs | races | thread | memory) ;;
     *) echo "Unknown stage $stage; see the first lines of $0" >&2; exit 1 ;;
   esac
   echo "=== $stage"

@@ -56,7 +56,9 @@ public:
   void
   sum(std::vector<std::uint64_t>& numbers) override
   {
-    mpi::all_reduce(ranks_, mpi::inplace(numbers.data()), static_cast<int>(numbers.size()),
+    // mpi::inplace() would have Boost refer to an address that is none.
+    const auto mine = numbers;
+    mpi::all_reduce(ranks_, mine.data(), static_cast<int>(mine.size()), numbers.data(),
                     std::plus<std::uint64_t>());
   }
 
